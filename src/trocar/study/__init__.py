@@ -1,0 +1,1 @@
+"""Protocols, comparison, statistics, ledger and report."""

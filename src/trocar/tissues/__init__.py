@@ -1,0 +1,6 @@
+"""Tissues: frozen layers and the presets, each property with its source."""
+
+from trocar.tissues.layer import Layer
+from trocar.tissues.tissue import Tissue
+
+__all__ = ["Layer", "Tissue"]

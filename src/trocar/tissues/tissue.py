@@ -1,0 +1,53 @@
+"""A tissue: bonded layers, top first, resting on whatever the model's support says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from trocar.errors import InputError
+from trocar.tissues.layer import Layer
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tissue:
+    """Bond layers into a tissue.
+
+    Args:
+        layers: top (the side the tool touches) first; at least one; names unique.
+        name: what the tissue is called in reports.
+
+    Raises:
+        InputError: there is no layer, or two share a name.
+    """
+
+    layers: tuple[Layer, ...]
+    name: str = "tissue"
+
+    def __post_init__(self) -> None:
+        if not self.layers:
+            raise InputError(f"tissue {self.name!r}: layers", "at least one layer", self.layers)
+        names = self.layer_names
+        if len(set(names)) != len(names):
+            raise InputError(f"tissue {self.name!r}: layers", "every name once", names)
+
+    @property
+    def layer_names(self) -> tuple[str, ...]:
+        """Names of the layers, top first."""
+        return tuple(layer.name for layer in self.layers)
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of all layers together [m]."""
+        return sum(layer.thickness for layer in self.layers)
+
+    def index(self, layer: str | None) -> int:
+        """Return the place of a layer by name; None means the top one.
+
+        Raises:
+            InputError: no layer has this name.
+        """
+        if layer is None:
+            return 0
+        if layer not in self.layer_names:
+            raise InputError("layer", f"one of {', '.join(self.layer_names)}", layer)
+        return self.layer_names.index(layer)

@@ -1,0 +1,1 @@
+"""Tissue as waves: modes from membranes and layered solids, one exact propagator."""
