@@ -1,0 +1,211 @@
+"""From coupled equations of motion to independent 2 x 2 blocks.
+
+At each wavenumber a stack of n coupled amplitudes q obeys M q'' + C q' + K q = P f. Where the damping is
+proportional (it is diagonal in the undamped modes: Caughey and O'Kelly 1965, J Appl Mech 32:583) the blocks are
+the undamped modes. Else they are pairs of poles of the first-order form: complex conjugates together, real poles by
+neighbours. Two real poles that (almost) coincide share eigenvectors; their block is then taken from an ordered real
+Schur form, which stays accurate (Bavely and Stewart 1979, SIAM J Numer Anal 16:359).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import schur, solve_sylvester
+
+from trocar.errors import SolverError
+from trocar.model import FloatArray
+
+_PROPORTIONAL = 1e-11  # off-diagonal damping relative to the diagonal: below it is rounding of the eigenvectors
+_ILL_CONDITIONED = 1e2  # eigenvalue condition c: inverting the eigenvectors loses c^2, 1e-12 here
+_RESIDUAL = 1e-9  # of the rebuilt system matrix; more means poles that met in a way not foreseen here
+
+
+@dataclass(frozen=True)
+class Blocks:
+    """Independent blocks x' = A x + entry [0; M^-1 P f] of J systems of n amplitudes.
+
+    Attributes:
+        matrices: A [1/s], shape (J, n, 2, 2).
+        entry: from (q, q') to x, shape (J, n, 2, 2n).
+        exit: from x to q, shape (J, n, n, 2): amplitude, block, component are axes 1, 2, 3.
+    """
+
+    matrices: FloatArray
+    entry: FloatArray
+    exit: FloatArray
+
+
+def decouple(mass: FloatArray, damping: FloatArray, stiffness: FloatArray) -> Blocks:
+    """Split J coupled second-order systems into 2 x 2 blocks.
+
+    Args:
+        mass: symmetric positive definite, shape (J, n, n).
+        damping: symmetric, shape (J, n, n).
+        stiffness: symmetric positive definite, shape (J, n, n).
+
+    Raises:
+        SolverError: a matrix is not positive definite, or the blocks do not rebuild the system.
+    """
+    try:
+        lower = np.linalg.cholesky(mass)
+    except np.linalg.LinAlgError as error:
+        raise SolverError("mass matrix: expected positive definite; check densities and thicknesses") from error
+    inverse = np.linalg.inv(lower)
+    squares, vectors = np.linalg.eigh(_congruent(inverse, stiffness))
+    if not (squares > 0).all():
+        raise SolverError(
+            f"stiffness matrix: expected positive definite, got a squared frequency of {squares.min():.3g}; "
+            "give some tension, bending or foundation"
+        )
+    shapes = np.swapaxes(inverse, -1, -2) @ vectors  # M-orthonormal undamped modes
+    frequency = np.sqrt(squares)
+    modal_damping = np.swapaxes(shapes, -1, -2) @ damping @ shapes
+
+    count, order = frequency.shape
+    blocks = Blocks(
+        matrices=np.zeros((count, order, 2, 2)),
+        entry=np.zeros((count, order, 2, 2 * order)),
+        exit=np.zeros((count, order, order, 2)),
+    )
+    projector = np.swapaxes(shapes, -1, -2) @ mass
+    proportional = _is_diagonal(modal_damping)
+    _fill_undamped_modes(blocks, proportional, frequency, modal_damping)
+    if not proportional.all():
+        _fill_complex_modes(blocks, ~proportional, frequency, modal_damping)
+    return _in_amplitudes(blocks, shapes, projector, frequency)
+
+
+def _congruent(inverse: FloatArray, matrix: FloatArray) -> FloatArray:
+    product = inverse @ matrix @ np.swapaxes(inverse, -1, -2)
+    result: FloatArray = 0.5 * (product + np.swapaxes(product, -1, -2))
+    return result
+
+
+def _is_diagonal(matrices: FloatArray) -> np.ndarray:
+    size = np.sqrt(np.abs(np.diagonal(matrices, axis1=-2, axis2=-1)))
+    bound = _PROPORTIONAL * np.maximum(size[..., :, None] * size[..., None, :], 1e-300)
+    # The largest entry sets the rounding level of all: they come out of one product.
+    bound = np.maximum(bound, 1e-14 * np.abs(matrices).max(axis=(-2, -1), keepdims=True))
+    off = np.abs(matrices) * (1 - np.eye(matrices.shape[-1]))
+    result: np.ndarray = (off <= bound).all(axis=(-2, -1))
+    return result
+
+
+def _fill_undamped_modes(blocks: Blocks, where: np.ndarray, frequency: FloatArray, damping: FloatArray) -> None:
+    """x = (q, q'/w): A = [[0, w], [-w, -c]], so that an undamped step is a rotation."""
+    w = frequency[where]
+    order = w.shape[-1]
+    blocks.matrices[where, :, 0, 1] = w
+    blocks.matrices[where, :, 1, 0] = -w
+    blocks.matrices[where, :, 1, 1] = -np.diagonal(damping[where], axis1=-2, axis2=-1)
+    modes = np.arange(order)
+    entry = np.zeros((*w.shape, 2, 2 * order))
+    entry[:, modes, 0, modes] = 1.0
+    entry[:, modes, 1, order + modes] = 1.0  # of the scaled velocity q'/w
+    leave = np.zeros((w.shape[0], order, order, 2))
+    leave[:, modes, modes, 0] = 1.0
+    blocks.entry[where] = entry
+    blocks.exit[where] = leave
+
+
+def _fill_complex_modes(blocks: Blocks, where: np.ndarray, frequency: FloatArray, damping: FloatArray) -> None:
+    w = frequency[where]
+    order = w.shape[-1]
+    system = np.zeros((w.shape[0], 2 * order, 2 * order))
+    modes = np.arange(order)
+    system[:, modes, order + modes] = w
+    system[:, order + modes, modes] = -w
+    system[:, order:, order:] = -damping[where] * w[:, None, :] / w[:, :, None]  # of q'/w
+    poles, right = np.linalg.eig(system)
+    left = np.linalg.inv(right)
+    poles, right, left = poles.astype(complex), right.astype(complex), left.astype(complex)
+    condition = np.linalg.norm(right, axis=-2) * np.linalg.norm(left, axis=-1)
+    for row, place in enumerate(np.flatnonzero(where)):
+        found = None
+        if condition[row].max() > _ILL_CONDITIONED:
+            found = _pair_with_double_pole(system[row], poles[row], condition[row])
+        matrices, columns, rows = found or _pair(poles[row], right[row], left[row])
+        rebuilt = np.einsum("asi,sij,sjb->ab", columns, matrices, rows)
+        residual = np.abs(rebuilt - system[row]).max() / np.abs(system[row]).max()
+        if residual > _RESIDUAL:
+            raise SolverError(
+                f"damped modes: expected a residual below {_RESIDUAL:g}, got {residual:.2g}: more than two poles "
+                "coincide; change a layer's damping by a part in a thousand"
+            )
+        blocks.matrices[place] = matrices
+        blocks.entry[place] = rows
+        blocks.exit[place] = columns[:order]
+
+
+def _pair(poles: np.ndarray, right: np.ndarray, left: np.ndarray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return real blocks (n, 2, 2), their columns (2n, n, 2) and rows (n, 2, 2n): sum of columns A rows = system."""
+    size = len(poles)
+    matrices = np.zeros((size // 2, 2, 2))
+    columns = np.zeros((right.shape[0], size // 2, 2))
+    rows = np.zeros((size // 2, 2, left.shape[1]))
+    upper = np.flatnonzero(poles.imag > 0)
+    real = np.flatnonzero(poles.imag == 0)
+    real = real[np.argsort(poles.real[real])]
+    block = 0
+    for i in upper:  # u = 2 Re(right w), w' = s w: x = (Re w, Im w)
+        a, b = poles[i].real, poles[i].imag
+        matrices[block] = [[a, -b], [b, a]]
+        columns[:, block, 0], columns[:, block, 1] = 2 * right[:, i].real, -2 * right[:, i].imag
+        rows[block, 0], rows[block, 1] = left[i].real, left[i].imag
+        block += 1
+    for first, second in zip(real[::2], real[1::2], strict=True):
+        for component, i in enumerate((first, second)):
+            matrices[block, component, component] = poles[i].real
+            columns[:, block, component] = right[:, i].real
+            rows[block, component] = left[i].real
+        block += 1
+    return matrices, columns, rows
+
+
+def _pair_with_double_pole(
+    system: FloatArray, poles: np.ndarray, condition: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray] | None:
+    """Take the two worst-conditioned poles out by an ordered real Schur form, and pair the others.
+
+    Returns None where those two are not alone near the real axis.
+    """
+    pair = poles[np.argsort(condition)[-2:]]
+    centre = pair.mean().real
+    reach = 2 * np.abs(pair - centre).max() + 1e-6 * abs(centre)
+    triangle, basis, inside = schur(system, sort=lambda re, im: bool(abs(complex(re, im) - centre) <= reach))
+    if inside != 2:
+        return None
+    coupling = solve_sylvester(triangle[:2, :2], -triangle[2:, 2:], -triangle[:2, 2:])
+    block_columns = basis[:, :2]
+    block_rows = basis[:, :2].T - coupling @ basis[:, 2:].T
+    rest_columns = basis[:, 2:] + basis[:, :2] @ coupling
+    rest_poles, rest_right = np.linalg.eig(triangle[2:, 2:])
+    rest_left = np.linalg.inv(rest_right) @ basis[:, 2:].T
+    matrices, columns, rows = _pair(
+        rest_poles.astype(complex), (rest_columns @ rest_right).astype(complex), rest_left.astype(complex)
+    )
+    return (
+        np.concatenate([triangle[None, :2, :2], matrices]),
+        np.concatenate([block_columns[:, None, :], columns], axis=1),
+        np.concatenate([block_rows[None], rows]),
+    )
+
+
+def _in_amplitudes(blocks: Blocks, shapes: FloatArray, projector: FloatArray, frequency: FloatArray) -> Blocks:
+    """Turn entry and exit from modal coordinates (q, q'/w) into amplitudes."""
+    order = shapes.shape[-1]
+    scaled = projector / frequency[..., :, None]
+    entry = np.concatenate(
+        [
+            np.einsum("jsim,jma->jsia", blocks.entry[..., :order], projector),
+            np.einsum("jsim,jma->jsia", blocks.entry[..., order:], scaled),
+        ],
+        axis=-1,
+    )
+    return Blocks(
+        matrices=blocks.matrices,
+        entry=entry,
+        exit=np.einsum("jam,jmsi->jasi", shapes, blocks.exit),
+    )
