@@ -1,0 +1,186 @@
+"""WaveMembrane: the paper's model done right.
+
+Coupled membranes with fixed edges (see `stack`), each mode sin(kx x) sin(ky y) a small system of as many oscillators
+as there are layers, moved by the one exact step. An initial shape or velocity given as a function enters through the
+double Fourier series (Kreyszig, Advanced Engineering Mathematics, section 12.9); a tool enters through the
+closed-form transform of its footprint. Forces act on the top sheet, across it; a tilted press's drag along the
+surface is not seen by a membrane, which moves only up and down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+
+import numpy as np
+
+from trocar.errors import InputError
+from trocar.model import FloatArray, Load, Press, Support
+from trocar.tissues.tissue import Tissue
+from trocar.waves.footprint import modal_forces
+from trocar.waves.oscillators import Oscillators
+from trocar.waves.series import Field, Series
+from trocar.waves.stack import Stack, derived_stack
+from trocar.waves.state import WaveState, require_step
+
+
+class WaveMembrane:
+    """Coupled membranes on a rectangle with fixed edges.
+
+    Args:
+        stack: the coefficients.
+        size: sides a, b [m].
+        modes: highest m and n of the series.
+        support: whose block the coefficients describe; told to whoever asks, it changes nothing here.
+
+    Raises:
+        InputError: a size or mode count is impossible.
+        SolverError: the stack has no stiffness.
+    """
+
+    def __init__(
+        self,
+        stack: Stack,
+        *,
+        size: tuple[float, float],
+        modes: tuple[int, int] = (48, 48),
+        support: Support | str = Support.EDGES,
+    ) -> None:
+        self.stack = stack
+        self.size = size
+        self.support = Support(support)
+        self.layer_names = tuple(sheet.name for sheet in stack.sheets)
+        self._series = Series(size, modes)
+        mass, damping, stiffness = _matrices(stack, self._series)
+        self._mass, self._stiffness = mass, stiffness
+        a, b = size
+        forcing = np.zeros((len(mass), len(stack.sheets), 1))
+        forcing[:, 0, 0] = 4 / (a * b)
+        reading = np.broadcast_to(np.eye(len(stack.sheets)), mass.shape)
+        self.oscillators = Oscillators.of(mass, damping, stiffness, forcing, reading)
+        self._unit_forces = lru_cache(maxsize=16)(self._forces_of_unit_press)
+
+    @classmethod
+    def derived(
+        cls,
+        tissue: Tissue,
+        *,
+        size: tuple[float, float],
+        support: Support | str = Support.BASE,
+        modes: tuple[int, int] = (48, 48),
+    ) -> WaveMembrane:
+        """Build one with coefficients derived from the layers alone (see `derived_stack`)."""
+        return cls(derived_stack(tissue, Support(support)), size=size, modes=modes, support=support)
+
+    @property
+    def modes(self) -> tuple[int, int]:
+        """Highest m and n."""
+        return self._series.modes
+
+    def init(self) -> WaveState:
+        """Return the state at rest at time 0."""
+        return WaveState(0.0, (self.oscillators.rest,))
+
+    def released(
+        self, *, displacement: Mapping[str, Field] | None = None, velocity: Mapping[str, Field] | None = None
+    ) -> WaveState:
+        """Return the state at time 0 of a tissue let go from a shape and a velocity.
+
+        Args:
+            displacement: for each layer named, a function of x, y [m] that gives u_z [m].
+            velocity: likewise, du_z/dt [m/s].
+
+        Raises:
+            InputError: a layer is unknown, or a field is not finite on the block.
+        """
+        layers = len(self.layer_names)
+        start = np.zeros((len(self._mass), 2 * layers))
+        for offset, fields in ((0, displacement or {}), (layers, velocity or {})):
+            for name, field in fields.items():
+                if name not in self.layer_names:
+                    raise InputError("released: layer", f"one of {', '.join(self.layer_names)}", name)
+                table = self._series.coefficients(field)
+                start[:, offset + self.layer_names.index(name)] = table[1:, 1:].ravel()
+        return WaveState(0.0, (np.einsum("jsia,ja->jsi", self.oscillators.entry, start),))
+
+    def step(self, state: WaveState, load0: Load, load1: Load, dt: float) -> WaveState:
+        """Advance by dt [s], exactly for a load linear from load0 to load1.
+
+        Raises:
+            InputError: dt is not above 0, or the loads hold different numbers of presses.
+        """
+        require_step(load0, load1, dt)
+        (oscillators,) = state.oscillators
+        advanced = self.oscillators.step(oscillators, self._forces(load0), self._forces(load1), dt)
+        return WaveState(state.time + dt, (advanced,), load1)
+
+    def static(self, load: Load) -> WaveState:
+        """Return the equilibrium under a constant load."""
+        return WaveState(0.0, (self.oscillators.equilibrium(self._forces(load)),), load)
+
+    def displacement(self, state: WaveState, points: FloatArray, layer: str | None = None) -> FloatArray:
+        """Return the displacement [m] of a layer at points [m]; both of shape (n, 3). Only u_z is not zero.
+
+        Raises:
+            InputError: the layer is unknown.
+        """
+        result = np.zeros((len(points), 3))
+        result[:, 2] = self._series.vertical(self.amplitudes(state, layer), points)
+        return result
+
+    def amplitudes(self, state: WaveState, layer: str | None = None) -> FloatArray:
+        """Return the series of a layer's u_z [m], shape (M + 1, N + 1)."""
+        if layer is not None and layer not in self.layer_names:
+            raise InputError("layer", f"one of {', '.join(self.layer_names)}", layer)
+        place = 0 if layer is None else self.layer_names.index(layer)
+        (oscillators,) = state.oscillators
+        table = np.zeros((self.modes[0] + 1, self.modes[1] + 1))
+        table[1:, 1:] = self.oscillators.read(oscillators)[:, place].reshape(self.modes)
+        return table
+
+    def modal_energy(self, state: WaveState) -> FloatArray:
+        """Return kinetic plus elastic energy of each mode (m, n), all layers together [J], shape (M, N)."""
+        (oscillators,) = state.oscillators
+        amplitude, rate = self.oscillators.read(oscillators), self.oscillators.read_rates(oscillators)
+        density = np.einsum("ja,jab,jb->j", rate, self._mass, rate)
+        density += np.einsum("ja,jab,jb->j", amplitude, self._stiffness, amplitude)
+        a, b = self.size
+        energy: FloatArray = (0.5 * density * a * b / 4).reshape(self.modes)
+        return energy
+
+    def static_compliance(self) -> FloatArray:
+        """Return each face's amplitude per unit pressure amplitude on top [m/Pa], shape (M, N, layers)."""
+        top = np.zeros((*self._stiffness.shape[:2], 1))
+        top[:, 0] = 1.0
+        table: FloatArray = np.linalg.solve(self._stiffness, top)[..., 0].reshape(*self.modes, -1)
+        return table
+
+    def _forces(self, load: Load) -> FloatArray:
+        total = np.zeros((len(self._mass), 1))
+        for press in load:
+            total[:, 0] += press.force * self._unit_forces(press.with_force(1.0))
+        return total
+
+    def _forces_of_unit_press(self, press: Press) -> FloatArray:
+        across: FloatArray = modal_forces(press, self._series)[2, 1:, 1:].ravel()
+        return across
+
+
+def _matrices(stack: Stack, series: Series) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return mass, damping and stiffness per unit area of each mode, each of shape (M N, layers, layers)."""
+    kx, ky = np.meshgrid(series.kx[1:], series.ky[1:], indexing="ij")
+    kx2, ky2 = kx.ravel() ** 2, ky.ravel() ** 2
+    layers = len(stack.sheets)
+    mass = np.zeros((len(kx2), layers, layers))
+    damping, stiffness = mass.copy(), mass.copy()
+    for i, sheet in enumerate(stack.sheets):
+        own = sheet.bending * (kx2 + ky2) ** 2 + sheet.tension_x * kx2 + sheet.tension_y * ky2
+        mass[:, i, i] = sheet.areal_density
+        stiffness[:, i, i] += own
+        damping[:, i, i] += sheet.damping + sheet.retardation_time * own
+    for i, coupling in enumerate(stack.couplings):
+        pair = np.zeros((layers + 1, layers + 1))
+        pair[i : i + 2, i : i + 2] = coupling.stiffness * np.array([[1, -1], [-1, 1]])
+        stiffness += pair[:layers, :layers]
+        damping += coupling.retardation_time * pair[:layers, :layers]
+    return mass, damping, stiffness
