@@ -39,18 +39,19 @@ def exponential(blocks: FloatArray, dt: float) -> FloatArray:
     half_gap = 0.5 * (blocks[..., 0, 0] - blocks[..., 1, 1])
     mean = 0.5 * (blocks[..., 0, 0] + blocks[..., 1, 1])
     discriminant = half_gap**2 + blocks[..., 0, 1] * blocks[..., 1, 0]
-    rate = np.sqrt(np.abs(discriminant))
-    safe_rate = np.where(rate > 0, rate, 1.0)
+    oscillates = discriminant < 0
+    omega = np.sqrt(np.where(oscillates, -discriminant, 0.0))
+    rate = np.sqrt(np.where(oscillates, 0.0, discriminant))
 
     decay = np.exp(mean * dt)
-    swing_even = decay * np.cos(rate * dt)
-    swing_odd = decay * np.where(rate > 0, np.sin(rate * dt) / safe_rate, dt)
+    swing_even = decay * np.cos(omega * dt)
+    swing_odd = decay * np.sin(omega * dt) / np.where(oscillates, omega, 1.0)
 
     slow = np.exp((mean + rate) * dt)
     creep_even = 0.5 * (slow + np.exp((mean - rate) * dt))
-    creep_odd = slow * np.where(rate > 0, -np.expm1(-2 * rate * dt) / (2 * safe_rate), dt)
+    apart = rate > 0
+    creep_odd = slow * np.where(apart, -np.expm1(-2 * rate * dt) / np.where(apart, 2 * rate, 1.0), dt)
 
-    oscillates = discriminant < 0
     even = np.where(oscillates, swing_even, creep_even)
     odd = np.where(oscillates, swing_odd, creep_odd)
     deviator = blocks - mean[..., None, None] * _IDENTITY

@@ -1,0 +1,233 @@
+"""WaveSolid: linear elastic waves in a layered block, by thin layers through the thickness.
+
+Across the block the series of `series` diagonalise the problem exactly where the sides are simply supported, so what
+is left per wavenumber is a small banded system (see `thin_layer`). Two nested sets of wavenumbers serve it: all of
+them follow the load statically (`banded`), and the lower ones besides carry oscillators (`ritz`), whose static part
+is exact. Where the case says that the sides are clamped (`edges`, `edges+base`) this model still supports them
+simply: the difference is stated and measured in the study, and grows towards the sides.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from trocar.model import FloatArray, Load, Press, Support
+from trocar.tissues.tissue import Tissue
+from trocar.waves.banded import surface_compliance
+from trocar.waves.footprint import modal_forces
+from trocar.waves.oscillators import Oscillators
+from trocar.waves.ritz import ritz_oscillators
+from trocar.waves.series import Series
+from trocar.waves.state import WaveState, require_step
+from trocar.waves.thin_layer import ThinLayers, Wavenumbers, horizontal_shear, vertical_and_along
+
+_SILENT = 1e-13  # modal force relative to the largest: below it is rounding (a central tool's even modes)
+
+
+class WaveSolid:
+    """A layered elastic block with simply supported sides.
+
+    Args:
+        tissue: the layers.
+        size: sides a, b [m].
+        support: which support the block stands for; the base is held unless it is `edges`.
+        modes: highest m and n of the static series.
+        dynamic_modes: highest m and n that move with inertia and damping; the others follow at once.
+        order: how many Ritz vectors per direction each moving wavenumber has.
+        refinement: cuts every thin layer into this many.
+
+    Raises:
+        InputError: a size or mode count is impossible.
+    """
+
+    def __init__(
+        self,
+        tissue: Tissue,
+        *,
+        size: tuple[float, float],
+        support: Support | str = Support.BASE,
+        modes: tuple[int, int] = (128, 128),
+        dynamic_modes: tuple[int, int] = (40, 40),
+        order: int = 3,
+        refinement: int = 1,
+    ) -> None:
+        self.tissue = tissue
+        self.size = size
+        self.support = Support(support)
+        self.layer_names = tissue.layer_names
+        self._series = Series(size, modes)
+        self._moving = Series(size, (min(modes[0], dynamic_modes[0]), min(modes[1], dynamic_modes[1])))
+        self._order = order
+        held = self.support.base_held
+        self._layers_wv = vertical_and_along(tissue, base_held=held, refinement=refinement)
+        self._layers_s = horizontal_shear(tissue, base_held=held, refinement=refinement)
+        shape = self._series.kx.size, self._series.ky.size, len(tissue.layers)
+        self._compliance_wv = np.full((*shape, 2, 2), np.nan)
+        self._compliance_s = np.full((*shape, 1, 1), np.nan)
+        self._unit_response = lru_cache(maxsize=8)(self._response_to_unit_press)
+
+    @property
+    def modes(self) -> tuple[int, int]:
+        """Highest m and n of the static series."""
+        return self._series.modes
+
+    def init(self) -> WaveState:
+        """Return the state at rest at time 0."""
+        return WaveState(0.0, (self.oscillators_wv.rest, self.oscillators_s.rest))
+
+    def static(self, load: Load) -> WaveState:
+        """Return the equilibrium under a constant load."""
+        return WaveState(0.0, (), load)
+
+    def step(self, state: WaveState, load0: Load, load1: Load, dt: float) -> WaveState:
+        """Advance by dt [s], exactly for a load linear from load0 to load1.
+
+        Raises:
+            InputError: dt is not above 0, or the loads hold different numbers of presses.
+        """
+        require_step(load0, load1, dt)
+        if not state.oscillators:
+            held = self._moving_forces(state.load)
+            families = zip((self.oscillators_wv, self.oscillators_s), held, strict=True)
+            state = WaveState(state.time, tuple(family.equilibrium(f) for family, f in families), state.load)
+        start, end = self._moving_forces(load0), self._moving_forces(load1)
+        wv = self.oscillators_wv.step(state.oscillators[0], start[0], end[0], dt)
+        s = self.oscillators_s.step(state.oscillators[1], start[1], end[1], dt)
+        return WaveState(state.time + dt, (wv, s), load1)
+
+    def displacement(self, state: WaveState, points: FloatArray, layer: str | None = None) -> FloatArray:
+        """Return the displacement [m] of a layer's upper face at points [m]; both of shape (n, 3).
+
+        Raises:
+            InputError: the layer is unknown.
+        """
+        along_x, along_y, across = self.amplitudes(state, layer)
+        result = np.empty((len(points), 3))
+        result[:, 0] = self._series.along_x(along_x, points) if along_x.any() else 0.0
+        result[:, 1] = self._series.along_y(along_y, points) if along_y.any() else 0.0
+        result[:, 2] = self._series.vertical(across, points)
+        return result
+
+    def amplitudes(self, state: WaveState, layer: str | None = None) -> FloatArray:
+        """Return the series of a face's displacement (x, y, z) [m], shape (3, M + 1, N + 1)."""
+        face = self.tissue.index(layer)
+        table = np.zeros((3, self.modes[0] + 1, self.modes[1] + 1))
+        for press in state.load:
+            table += press.force * self._unit_response(press.with_force(1.0))[face]
+        if state.oscillators:
+            rows, columns = self._moving.kx.size, self._moving.ky.size
+            table[:, :rows, :columns] = self._moving_amplitudes(state, face)
+        return table
+
+    # What follows at once -------------------------------------------------------------------------------------
+
+    def _response_to_unit_press(self, press: Press) -> FloatArray:
+        """Return every face's static series under one press, shape (layers, 3, M + 1, N + 1)."""
+        across, along, side, kx, ky = _polarised(press, self._series)
+        drags = press.tilt > 0
+        self._fill(self._compliance_wv, self._layers_wv, _audible(across) | _audible(along))
+        compliance = np.nan_to_num(self._compliance_wv)
+        w = compliance[..., 0, 0] * across[..., None]
+        v = compliance[..., 1, 0] * across[..., None]
+        s = np.zeros_like(w)
+        if drags:
+            self._fill(self._compliance_s, self._layers_s, _audible(side))
+            w = w + compliance[..., 0, 1] * along[..., None]
+            v = v + compliance[..., 1, 1] * along[..., None]
+            s = np.nan_to_num(self._compliance_s[..., 0, 0]) * side[..., None]
+        response = np.stack([kx * v - ky * s, ky * v + kx * s, w])
+        return np.ascontiguousarray(np.moveaxis(response, 3, 0))
+
+    def _fill(self, table: FloatArray, layers: ThinLayers, wanted: np.ndarray) -> None:
+        missing = wanted & np.isnan(table[:, :, 0, 0, 0])
+        if missing.any():
+            distinct, places = _distinct(self._series, missing, self.tissue)
+            table[missing] = surface_compliance(layers, distinct)[places]
+
+    # What moves -----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def oscillators_wv(self) -> Oscillators:
+        """Oscillators of the vertical and in-plane waves, one group per m, n >= 1."""
+        wanted = np.zeros((self._moving.kx.size, self._moving.ky.size), dtype=bool)
+        wanted[1:, 1:] = True
+        return self._oscillators(self._layers_wv, wanted)
+
+    @cached_property
+    def oscillators_s(self) -> Oscillators:
+        """Oscillators of the horizontally polarised shear waves, one group per (m, n) except (0, 0)."""
+        wanted = np.ones((self._moving.kx.size, self._moving.ky.size), dtype=bool)
+        wanted[0, 0] = False
+        return self._oscillators(self._layers_s, wanted)
+
+    def _oscillators(self, layers: ThinLayers, wanted: np.ndarray) -> Oscillators:
+        distinct, places = _distinct(self._moving, wanted, self.tissue)
+        return ritz_oscillators(layers, distinct, self._order).gathered(places)
+
+    def _moving_forces(self, load: Load) -> tuple[FloatArray, FloatArray]:
+        rows, columns = self._moving.kx.size, self._moving.ky.size
+        wv = np.zeros((rows, columns, 2))
+        s = np.zeros((rows, columns))
+        for press in load:
+            across, along, side, _, _ = self._unit_polarised(press.with_force(1.0))
+            wv[..., 0] += press.force * across
+            wv[..., 1] += press.force * along
+            s += press.force * side
+        return wv[1:, 1:].reshape(-1, 2), s.reshape(-1, 1)[1:]
+
+    @cached_property
+    def _unit_polarised(self):  # type: ignore[no-untyped-def]
+        return lru_cache(maxsize=16)(lambda press: _polarised(press, self._moving))
+
+    def _moving_amplitudes(self, state: WaveState, face: int) -> FloatArray:
+        rows, columns = self._moving.kx.size, self._moving.ky.size
+        kx, ky = _directions(self._moving)
+        w, v = np.zeros((rows, columns)), np.zeros((rows, columns))
+        read = self.oscillators_wv.read(state.oscillators[0]).reshape(rows - 1, columns - 1, -1, 2)
+        w[1:, 1:], v[1:, 1:] = read[:, :, face, 0], read[:, :, face, 1]
+        s = np.zeros(rows * columns)
+        s[1:] = self.oscillators_s.read(state.oscillators[1])[:, face]
+        s = s.reshape(rows, columns)
+        return np.stack([kx[..., 0] * v - ky[..., 0] * s, ky[..., 0] * v + kx[..., 0] * s, w])
+
+
+def _directions(series: Series) -> tuple[FloatArray, FloatArray]:
+    """Return kx/k and ky/k, each of shape (M + 1, N + 1, 1)."""
+    kx, ky = series.kx[:, None, None], series.ky[None, :, None]
+    k = np.hypot(kx, ky)
+    k[0, 0] = 1.0
+    return kx / k, ky / k
+
+
+def _polarised(press: Press, series: Series) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Return the traction's amplitudes [Pa] across, along and beside each wave vector, and the directions."""
+    forces = modal_forces(press, series)
+    a, b = series.size
+    norm = np.full(forces.shape[1:], 4 / (a * b))
+    norm[0, :] *= 0.5
+    norm[:, 0] *= 0.5
+    fx, fy, fz = forces * norm
+    kx, ky = _directions(series)
+    along = kx[..., 0] * fx + ky[..., 0] * fy
+    along[0, :] = along[:, 0] = 0.0  # without a sine of its own such a wave has no in-plane part along it
+    side = kx[..., 0] * fy - ky[..., 0] * fx
+    return fz, along, side, kx, ky
+
+
+def _audible(amplitudes: FloatArray) -> np.ndarray:
+    size = np.abs(amplitudes)
+    result: np.ndarray = size > _SILENT * max(size.max(), 1e-300)
+    return result
+
+
+def _distinct(series: Series, wanted: np.ndarray, tissue: Tissue) -> tuple[Wavenumbers, np.ndarray]:
+    """Return the distinct wavenumbers among those wanted, and the place of each wanted one among them."""
+    m, n = np.nonzero(wanted)
+    kx2, ky2 = series.kx[m] ** 2, series.ky[n] ** 2
+    k2 = kx2 + ky2
+    directed = any(layer.prestress_x != layer.prestress_y for layer in tissue.layers)
+    key = np.round(np.stack([k2, kx2 if directed else k2]) * (series.size[0] / np.pi) ** 2, 6)
+    _, first, places = np.unique(key, axis=1, return_index=True, return_inverse=True)
+    return Wavenumbers(np.sqrt(k2[first]), kx2[first], ky2[first]), places.ravel()

@@ -1,0 +1,197 @@
+"""Thin layers: a layered half of the problem solved through the thickness, one wavenumber at a time.
+
+With u_z = W(z) sin sin, u_x = (kx V - ky S)/k cos sin, u_y = (ky V + kx S)/k sin cos (k^2 = kx^2 + ky^2), linear
+elasticity of layers splits per wavenumber into W and V (vertical, and in-plane along the wave vector) and S
+(horizontally polarised shear). The elastic energy per unit area of the mode is
+
+    1/2 int lambda (W' - k V)^2 + 2 mu (W'^2 + k^2 V^2) + mu (V' + k W)^2 dz,     1/2 int mu (S'^2 + k^2 S^2) dz,
+
+and a prestress adds (sigma_x kx^2 + sigma_y ky^2) (W^2 + V^2 + S^2). Quadratic elements in z turn each into banded
+matrices that are quadratic in k (Lysmer 1970, Bull Seismol Soc Am 60:89; Kausel and Roesset 1981, ibid. 71:1743).
+The volume term is integrated with two Gauss points an element, so that Poisson's ratios near 0.5 do not lock.
+
+Unknowns run from the base up, so that the tool's force is the last of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from trocar.model import FloatArray
+from trocar.tissues.layer import Layer
+from trocar.tissues.tissue import Tissue
+
+_GROWTH = 0.5  # element length over its depth below the surface: a wave k dies as exp(-k depth)
+_TOP = 0.6  # first element as a share of the top layer where that is thin
+_PER_LAYER = 5  # elements through the thickest layer at least: waves inside it
+
+
+@dataclass(frozen=True)
+class Wavenumbers:
+    """The J wavenumbers a family of matrices is wanted for.
+
+    Attributes:
+        k: magnitude [1/m], shape (J,).
+        kx2, ky2: squared components [1/m2], shape (J,).
+    """
+
+    k: FloatArray
+    kx2: FloatArray
+    ky2: FloatArray
+
+
+@dataclass(frozen=True)
+class ThinLayers:
+    """Matrices through the thickness of one tissue; n nodes above the held base, c components a node.
+
+    Every matrix is a sum over layers, so damping can differ between them. Index 0 of the coefficient arrays is the
+    layer. Dense (n c, n c): n is a few dozen.
+
+    Attributes:
+        constant, linear, quadratic: coefficients of 1, k and k^2 in the stiffness, shape (layers, nc, nc).
+        prestress_x, prestress_y: coefficients of kx^2 and ky^2, shape (nc, nc).
+        mass: shape (nc, nc).
+        retardation: Kelvin-Voigt time of each layer [s], shape (layers,).
+        faces: node of each layer's upper face, top layer first.
+        components: c: 2 for W and V, 1 for S.
+    """
+
+    constant: FloatArray
+    linear: FloatArray
+    quadratic: FloatArray
+    prestress_x: FloatArray
+    prestress_y: FloatArray
+    mass: FloatArray
+    retardation: FloatArray
+    faces: tuple[int, ...]
+    components: int
+
+    def stiffness(self, at: Wavenumbers) -> FloatArray:
+        """Return K per unit area, shape (J, nc, nc)."""
+        k = at.k[:, None, None]
+        result: FloatArray = self.constant.sum(0) + k * self.linear.sum(0) + k**2 * self.quadratic.sum(0)
+        return result + at.kx2[:, None, None] * self.prestress_x + at.ky2[:, None, None] * self.prestress_y
+
+    def damping(self, at: Wavenumbers) -> FloatArray:
+        """Return C = sum over layers of retardation time times elastic stiffness, shape (J, nc, nc)."""
+        k = at.k[:, None, None]
+        constant, linear, quadratic = (
+            np.tensordot(self.retardation, part, 1) for part in (self.constant, self.linear, self.quadratic)
+        )
+        result: FloatArray = constant + k * linear + k**2 * quadratic
+        return result
+
+    @property
+    def size(self) -> int:
+        """Unknowns per wavenumber."""
+        return len(self.mass)
+
+    def unknown(self, layer: int, component: int) -> int:
+        """Place of a component at a layer's upper face."""
+        return self.components * self.faces[layer] + component
+
+
+def vertical_and_along(tissue: Tissue, *, base_held: bool, refinement: int = 1) -> ThinLayers:
+    """Assemble the matrices of W and V (components 0 and 1).
+
+    Args:
+        tissue: the layers.
+        base_held: whether the lower face cannot move.
+        refinement: every element is cut into this many.
+    """
+    return _assemble(tissue, _element_wv, 2, base_held=base_held, refinement=refinement)
+
+
+def horizontal_shear(tissue: Tissue, *, base_held: bool, refinement: int = 1) -> ThinLayers:
+    """Assemble the matrices of S; arguments as in `vertical_and_along`."""
+    return _assemble(tissue, _element_s, 1, base_held=base_held, refinement=refinement)
+
+
+def element_lengths(tissue: Tissue) -> list[FloatArray]:
+    """Return the elements' lengths [m] of each layer, top down: growing with depth, capped inside thick layers."""
+    depth, lengths = 0.0, []
+    first = _TOP * min(tissue.layers[0].thickness, 0.1 * tissue.thickness)
+    cap = max(layer.thickness for layer in tissue.layers) / _PER_LAYER
+    for layer in tissue.layers:
+        left, own = layer.thickness, []
+        while left > 0:
+            step = min(max(first, _GROWTH * depth), cap)
+            step = left if left < 1.5 * step else step
+            own.append(step)
+            depth, left = depth + step, left - step
+        lengths.append(np.array(own))
+    return lengths
+
+
+def _assemble(tissue: Tissue, element, components: int, *, base_held: bool, refinement: int) -> ThinLayers:  # type: ignore[no-untyped-def]
+    upward = [np.repeat(own / refinement, refinement)[::-1] for own in reversed(element_lengths(tissue))]
+    layers = tissue.layers[::-1]
+    elements = [(place, length) for place, own in enumerate(upward) for length in own]
+    total = components * (2 * len(elements) + 1)
+    constant, linear, quadratic = (np.zeros((len(layers), total, total)) for _ in range(3))
+    prestress_x, prestress_y, mass = (np.zeros((total, total)) for _ in range(3))
+    for i, (place, length) in enumerate(elements):
+        span = slice(2 * i * components, (2 * i + 3) * components)
+        layer = layers[place]
+        k0, k1, k2, unit = element(layer, length)
+        constant[place, span, span] += k0
+        linear[place, span, span] += k1
+        quadratic[place, span, span] += k2
+        prestress_x[span, span] += layer.prestress_x * unit
+        prestress_y[span, span] += layer.prestress_y * unit
+        mass[span, span] += layer.density * unit
+    held = components if base_held else 0
+    free = slice(held, None)
+    tops = np.cumsum([2 * len(own) for own in upward])[::-1] - (1 if base_held else 0)
+    return ThinLayers(
+        constant=constant[:, free, free],
+        linear=linear[:, free, free],
+        quadratic=quadratic[:, free, free],
+        prestress_x=prestress_x[free, free],
+        prestress_y=prestress_y[free, free],
+        mass=mass[free, free],
+        retardation=np.array([layer.retardation_time for layer in layers]),
+        faces=tuple(int(top) for top in tops),
+        components=components,
+    )
+
+
+def _shapes(points: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return weights, values and slopes of the quadratic element on [0, 1] at Gauss points, shapes (q,), (q, 3)."""
+    nodes, weights = np.polynomial.legendre.leggauss(points)
+    s = 0.5 * (nodes + 1)
+    values = np.stack([(1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)], axis=1)
+    slopes = np.stack([4 * s - 3, 4 - 8 * s, 4 * s - 1], axis=1)
+    return 0.5 * weights, values, slopes
+
+
+def _element_wv(layer: Layer, length: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Return the element's coefficients of 1, k, k^2 and its int N N, components interleaved."""
+    mu = layer.shear_modulus
+    k0, k1, k2, unit = (np.zeros((6, 6)) for _ in range(4))
+    w, v = slice(0, None, 2), slice(1, None, 2)
+    for points, lame, shear in ((2, layer.lame_lambda, 0.0), (3, 0.0, mu)):
+        weight, value, slope = _shapes(points)
+        both = np.einsum("q,qi,qj->ij", weight, value, value) * length
+        steep = np.einsum("q,qi,qj->ij", weight, slope, slope) / length
+        mixed = np.einsum("q,qi,qj->ij", weight, slope, value)  # rows N', columns N
+        k0[w, w] += (lame + 2 * shear) * steep
+        k0[v, v] += shear * steep
+        k2[w, w] += shear * both
+        k2[v, v] += (lame + 2 * shear) * both
+        cross = -lame * mixed + shear * mixed.T  # W' V and W V'
+        k1[w, v] += cross
+        k1[v, w] += cross.T
+        if points == 3:
+            unit[w, w] = unit[v, v] = both
+    return k0, k1, k2, unit
+
+
+def _element_s(layer: Layer, length: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    weight, value, slope = _shapes(3)
+    unit = np.einsum("q,qi,qj->ij", weight, value, value) * length
+    steep = np.einsum("q,qi,qj->ij", weight, slope, slope) / length
+    mu = layer.shear_modulus
+    return mu * steep, np.zeros((3, 3)), mu * unit, unit
