@@ -94,7 +94,7 @@ def _is_diagonal(matrices: FloatArray) -> np.ndarray:
 
 
 def _fill_undamped_modes(blocks: Blocks, where: np.ndarray, frequency: FloatArray, damping: FloatArray) -> None:
-    """x = (q, q'/w): A = [[0, w], [-w, -c]], so that an undamped step is a rotation."""
+    """x = (w q, q'): A = [[0, w], [-w, -c]], so that an undamped step is a rotation."""
     w = frequency[where]
     order = w.shape[-1]
     blocks.matrices[where, :, 0, 1] = w
@@ -103,7 +103,7 @@ def _fill_undamped_modes(blocks: Blocks, where: np.ndarray, frequency: FloatArra
     modes = np.arange(order)
     entry = np.zeros((*w.shape, 2, 2 * order))
     entry[:, modes, 0, modes] = 1.0
-    entry[:, modes, 1, order + modes] = 1.0  # of the scaled velocity q'/w
+    entry[:, modes, 1, order + modes] = 1.0
     leave = np.zeros((w.shape[0], order, order, 2))
     leave[:, modes, modes, 0] = 1.0
     blocks.entry[where] = entry
@@ -117,7 +117,7 @@ def _fill_complex_modes(blocks: Blocks, where: np.ndarray, frequency: FloatArray
     modes = np.arange(order)
     system[:, modes, order + modes] = w
     system[:, order + modes, modes] = -w
-    system[:, order:, order:] = -damping[where] * w[:, None, :] / w[:, :, None]  # of q'/w
+    system[:, order:, order:] = -damping[where]
     poles, right = np.linalg.eig(system)
     left = np.linalg.inv(right)
     poles, right, left = poles.astype(complex), right.astype(complex), left.astype(complex)
@@ -194,18 +194,18 @@ def _pair_with_double_pole(
 
 
 def _in_amplitudes(blocks: Blocks, shapes: FloatArray, projector: FloatArray, frequency: FloatArray) -> Blocks:
-    """Turn entry and exit from modal coordinates (q, q'/w) into amplitudes."""
+    """Turn entry and exit from energy coordinates (w q, q') into amplitudes."""
     order = shapes.shape[-1]
-    scaled = projector / frequency[..., :, None]
+    scaled = projector * frequency[..., :, None]
     entry = np.concatenate(
         [
-            np.einsum("jsim,jma->jsia", blocks.entry[..., :order], projector),
-            np.einsum("jsim,jma->jsia", blocks.entry[..., order:], scaled),
+            np.einsum("jsim,jma->jsia", blocks.entry[..., :order], scaled),
+            np.einsum("jsim,jma->jsia", blocks.entry[..., order:], projector),
         ],
         axis=-1,
     )
     return Blocks(
         matrices=blocks.matrices,
         entry=entry,
-        exit=np.einsum("jam,jmsi->jasi", shapes, blocks.exit),
+        exit=np.einsum("jam,jmsi->jasi", shapes / frequency[..., None, :], blocks.exit),
     )

@@ -17,6 +17,7 @@ import numpy as np
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
 from trocar.tissues.tissue import Tissue
+from trocar.waves.fit import fitted_stack
 from trocar.waves.footprint import modal_forces
 from trocar.waves.oscillators import Oscillators
 from trocar.waves.series import Field, Series
@@ -71,6 +72,18 @@ class WaveMembrane:
     ) -> WaveMembrane:
         """Build one with coefficients derived from the layers alone (see `derived_stack`)."""
         return cls(derived_stack(tissue, Support(support)), size=size, modes=modes, support=support)
+
+    @classmethod
+    def fitted(
+        cls,
+        tissue: Tissue,
+        *,
+        size: tuple[float, float],
+        support: Support | str = Support.BASE,
+        modes: tuple[int, int] = (48, 48),
+    ) -> WaveMembrane:
+        """Build one with coefficients fitted to `WaveSolid`'s response (see `fit`)."""
+        return cls(fitted_stack(tissue, size=size, support=Support(support)), size=size, modes=modes, support=support)
 
     @property
     def modes(self) -> tuple[int, int]:

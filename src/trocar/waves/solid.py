@@ -49,7 +49,7 @@ class WaveSolid:
         size: tuple[float, float],
         support: Support | str = Support.BASE,
         modes: tuple[int, int] = (128, 128),
-        dynamic_modes: tuple[int, int] = (40, 40),
+        dynamic_modes: tuple[int, int] = (32, 32),
         order: int = 3,
         refinement: int = 1,
     ) -> None:

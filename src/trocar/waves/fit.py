@@ -1,0 +1,182 @@
+"""Membranes fitted to layers: which coefficients make coupled sheets answer a tool as the solid does.
+
+Three linear-response moments of the solid at the top face are matched, all under a central press:
+
+    static      the deflection of every face on a line from the centre outwards, for tools of several radii;
+                the tensions, bending stiffnesses and couplings come from nonlinear least squares in their logarithms
+    damping     p^T K^-1 C K^-1 p, the first moment in time; linear in the retardation times of sheets and beds
+    inertia     p^T K^-1 M K^-1 p, the second; linear in the areal densities
+
+The last two are non-negative least squares, weighted by what each wavenumber adds to the deflection under the tool.
+A fit holds for the block it was made for: its size, its support, and tools from 5 to 12 mm across.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import least_squares, nnls
+
+from trocar.model import FloatArray, Profile, Support
+from trocar.tissues.layer import Layer
+from trocar.tissues.tissue import Tissue
+from trocar.waves.footprint import transform
+from trocar.waves.series import Series
+from trocar.waves.stack import Coupling, Sheet, Stack, derived_stack
+from trocar.waves.thin_layer import ThinLayers, Wavenumbers, vertical_and_along
+
+RADII = (2.5e-3, 3e-3, 4e-3, 6e-3)  # [m] tools of 5, 6, 8 and 12 mm
+_MODES = 63  # highest odd mode: a flat 5 mm tool's peak within 0.1 %
+_STATIONS = (0.0, 0.5, 1.0, 1.5, 2.5)  # where the profile is matched, in tool radii from the centre
+_LOG_RANGE = 14.0  # coefficients stay within e^14 of their derived values
+
+
+@dataclass(frozen=True)
+class _Target:
+    """What the solid does, and how a compliance per wavenumber turns into deflections along the profile."""
+
+    at: Wavenumbers
+    compliance: FloatArray  # faces under a unit pressure amplitude [m/Pa], (J, faces)
+    damping: FloatArray  # first moment at the top face, (J,)
+    inertia: FloatArray  # second moment at the top face, (J,)
+    profile: FloatArray  # (radii * stations, J)
+
+
+def fitted_stack(tissue: Tissue, *, size: tuple[float, float], support: Support) -> Stack:
+    """Fit a stack of sheets, one per layer, to `WaveSolid`'s response.
+
+    Args:
+        tissue: the layers. Where a layer's prestress differs between x and y, the mean enters the fit and the
+            difference is added to its sheet's tensions afterwards.
+        size: sides a, b [m].
+        support: which block the coefficients are for.
+    """
+    even = Tissue(layers=tuple(_evenly_prestressed(layer) for layer in tissue.layers), name=tissue.name)
+    target = _target(even, size, support)
+    stack = _fit_static(derived_stack(even, support), target, support)
+    stack = _fit_rates(stack, target)
+    sheets = []
+    for sheet, layer in zip(stack.sheets, tissue.layers, strict=True):
+        half = 0.5 * (layer.prestress_x - layer.prestress_y) * layer.thickness
+        sheets.append(
+            replace(
+                sheet,
+                tension_x=max(sheet.tension_x + half, 0.0),
+                tension_y=max(sheet.tension_y - half, 0.0),
+            )
+        )
+    return replace(stack, sheets=tuple(sheets))
+
+
+def _evenly_prestressed(layer: Layer) -> Layer:
+    mean = 0.5 * (layer.prestress_x + layer.prestress_y)
+    return replace(layer, prestress_x=mean, prestress_y=mean)
+
+
+def _target(tissue: Tissue, size: tuple[float, float], support: Support) -> _Target:
+    series = Series(size, (_MODES, _MODES))
+    odd = np.arange(1, _MODES + 1, 2)
+    kx, ky = (grid.ravel() for grid in np.meshgrid(series.kx[odd], series.ky[odd], indexing="ij"))
+    k = np.hypot(kx, ky)
+    _, first, places = np.unique(np.round(k * size[0], 9), return_index=True, return_inverse=True)
+    at = Wavenumbers(k[first], kx[first] ** 2, ky[first] ** 2)
+
+    layers = vertical_and_along(tissue, base_held=support.base_held)
+    compliance, damping, inertia = _moments(layers, at)
+    a, b = size
+    rows = []
+    for radius in RADII:
+        # At the centre every odd sine is +-1 and its square 1; the profile runs along x.
+        weight = 4 / (a * b) * transform(Profile.FLAT, k * radius)
+        rows += [
+            np.bincount(places, weight * np.cos(kx * radius * station), minlength=len(first)) for station in _STATIONS
+        ]
+    return _Target(at, compliance, damping, inertia, np.array(rows))
+
+
+def _moments(layers: ThinLayers, at: Wavenumbers) -> tuple[FloatArray, FloatArray, FloatArray]:
+    top = np.zeros((len(at.k), layers.size, 1))
+    top[:, layers.unknown(0, 0)] = 1.0
+    response = np.linalg.solve(layers.stiffness(at), top)[..., 0]
+    faces = [layers.unknown(layer, 0) for layer in range(len(layers.faces))]
+    damping = np.einsum("ja,jab,jb->j", response, layers.damping(at), response)
+    inertia = np.einsum("ja,ab,jb->j", response, layers.mass, response)
+    return response[:, faces], damping, inertia
+
+
+def _fit_static(start: Stack, target: _Target, support: Support) -> Stack:
+    layers = len(start.sheets)
+    first = np.array(
+        [sheet.tension_x for sheet in start.sheets]
+        + [sheet.bending for sheet in start.sheets]
+        + [coupling.stiffness for coupling in start.couplings]
+    )
+    free = np.ones(len(first), dtype=bool)
+    free[-1] = support.base_held
+    wanted = target.profile @ target.compliance
+    peaks = np.abs(wanted).max(axis=0)
+
+    def coefficients(logarithms: FloatArray) -> FloatArray:
+        values = first.copy()
+        values[free] *= np.exp(logarithms)
+        return values
+
+    def misfit(logarithms: FloatArray) -> FloatArray:
+        response = _response(coefficients(logarithms), layers, target.at)
+        residual: FloatArray = ((target.profile @ response - wanted) / peaks).ravel()
+        return residual
+
+    count = int(free.sum())
+    found = least_squares(misfit, np.zeros(count), bounds=(-_LOG_RANGE, _LOG_RANGE), x_scale=1.0, max_nfev=200)
+    values = coefficients(found.x)
+    sheets = tuple(
+        replace(sheet, tension_x=float(t), tension_y=float(t), bending=float(d))
+        for sheet, t, d in zip(start.sheets, values[:layers], values[layers : 2 * layers], strict=True)
+    )
+    return Stack(sheets=sheets, couplings=tuple(Coupling(stiffness=float(c)) for c in values[2 * layers :]))
+
+
+def _response(values: FloatArray, layers: int, at: Wavenumbers) -> FloatArray:
+    """Return each sheet's amplitude per unit pressure amplitude on the top one, shape (J, layers)."""
+    tension, bending, coupling = values[:layers], values[layers : 2 * layers], values[2 * layers :]
+    k2 = at.k[:, None] ** 2
+    diagonal = bending * k2**2 + tension * k2
+    flexibility = 1 / (diagonal[:, -1] + coupling[-1])  # of the sheets below, seen from above
+    below = [flexibility]
+    for i in range(layers - 2, -1, -1):
+        flexibility = 1 / (diagonal[:, i] + 1 / (flexibility + 1 / coupling[i]))
+        below.append(flexibility)
+    below.reverse()
+    response = [below[0]]
+    for i in range(1, layers):
+        passed = below[i] / (below[i] + 1 / coupling[i - 1])
+        response.append(response[-1] * passed)
+    return np.stack(response, axis=1)
+
+
+def _fit_rates(stack: Stack, target: _Target) -> Stack:
+    layers = len(stack.sheets)
+    values = np.array(
+        [sheet.tension_x for sheet in stack.sheets]
+        + [sheet.bending for sheet in stack.sheets]
+        + [coupling.stiffness for coupling in stack.couplings]
+    )
+    response = _response(values, layers, target.at)
+    k2 = target.at.k[:, None] ** 2
+    own = (values[layers : 2 * layers] * k2**2 + values[:layers] * k2) * response**2
+    gaps = response - np.concatenate([response[:, 1:], np.zeros((len(response), 1))], axis=1)
+    beds = values[2 * layers :] * gaps**2
+    weight = np.abs(target.profile[:: len(_STATIONS)]).sum(axis=0)
+    densities, _ = nnls(weight[:, None] * response**2, weight * target.inertia)
+    times, _ = nnls(weight[:, None] * np.hstack([own, beds]), weight * target.damping)
+    least = 1e-3 * densities.max()  # a sheet must weigh something to move
+    sheets = tuple(
+        replace(sheet, areal_density=float(max(m, least)), retardation_time=float(t))
+        for sheet, m, t in zip(stack.sheets, densities, times[:layers], strict=True)
+    )
+    couplings = tuple(
+        replace(coupling, retardation_time=float(t))
+        for coupling, t in zip(stack.couplings, times[layers:], strict=True)
+    )
+    return Stack(sheets=sheets, couplings=couplings)
