@@ -1,0 +1,111 @@
+"""The mesh a block needs: fine where the tools are, coarser away from them, every layer resolved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from trocar.errors import InputError
+from trocar.model import FloatArray, Load, Support
+from trocar.reference.footprint import half_extent, require_on_block
+from trocar.reference.mesh import Bricks, Spacing, graded_lines
+from trocar.tissues import Tissue
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshSize:
+    """How finely a block is meshed; the defaults are measured by `bench/fea_convergence.py`.
+
+    Args:
+        per_radius: elements along a footprint's half width [1].
+        growth: by how much elements grow per distance from the footprint [m/m].
+        top: height of an element at the top face, in half widths of the smallest footprint [1].
+        deepening: by how much elements grow per depth [m/m].
+        refinement: how many times every element is split in two along every direction.
+
+    Raises:
+        InputError: a number is not possible.
+    """
+
+    per_radius: float = 3.0
+    growth: float = 0.5
+    top: float = 0.2
+    deepening: float = 0.5
+    refinement: int = 0
+
+    def __post_init__(self) -> None:
+        for key in ("per_radius", "growth", "top", "deepening"):
+            value = getattr(self, key)
+            if not (np.isfinite(value) and value > 0):
+                raise InputError(f"mesh: {key}", "a finite number above 0", value)
+        if not 0 <= self.refinement <= 4:
+            raise InputError("mesh: refinement", "0, 1, 2, 3 or 4", self.refinement)
+
+
+def quarter_mesh(tissue: Tissue, size: tuple[float, float], around: Load, mesh: MeshSize) -> Bricks:
+    """Mesh the quarter 0 <= x <= a/2, 0 <= y <= b/2 of a block.
+
+    Args:
+        tissue: the layers.
+        size: sides a, b of the block [m].
+        around: presses whose footprints are resolved, mirrored into the quarter; at least one.
+        mesh: how finely.
+
+    Raises:
+        InputError: a footprint is off the block.
+    """
+    for press in around:
+        require_on_block(press, size)
+    x, y = (
+        graded_lines(0.0, 0.5 * side, _around(side, around, axis, mesh), mesh.refinement)
+        for axis, side in enumerate(size)
+    )
+    smallest = min(min(half_extent(press)) for press in around)
+    z, slab_layer = _through(tissue, smallest, mesh)
+    return Bricks(x=x, y=y, z=z, slab_layer=slab_layer)
+
+
+def _around(side: float, around: Load, axis: int, mesh: MeshSize) -> Spacing:
+    spans = []
+    for press in around:
+        centre, half = (press.x, press.y)[axis], half_extent(press)[axis]
+        folded = min(centre, side - centre)
+        spans.append((folded, half))
+
+    def spacing(places: FloatArray) -> FloatArray:
+        wished = [
+            half / mesh.per_radius + mesh.growth * np.maximum(np.abs(places - folded) - half, 0.0)
+            for folded, half in spans
+        ]
+        return np.asarray(np.min(wished, axis=0))
+
+    return spacing
+
+
+def _through(tissue: Tissue, smallest: float, mesh: MeshSize) -> tuple[FloatArray, np.ndarray]:
+    def spacing(places: FloatArray) -> FloatArray:
+        return mesh.top * smallest - mesh.deepening * places
+
+    lines, slab_layer = [np.array([0.0])], []
+    upper = 0.0
+    for number, layer in enumerate(tissue.layers):
+        lower = upper - layer.thickness
+        through = graded_lines(lower, upper, spacing, mesh.refinement)[::-1]
+        lines.append(through[1:])
+        slab_layer += [number] * (len(through) - 1)
+        upper = lower
+    return np.concatenate(lines)[::-1].copy(), np.array(slab_layer[::-1], dtype=np.int64)
+
+
+def held_by_support(bricks: Bricks, support: Support) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+    """Return which displacement components the support holds at zero, shape (3, nodes)."""
+    held = np.zeros(bricks.nodes.shape, dtype=np.bool_)
+    if support.base_held:
+        held |= bricks.nodes[2] <= bricks.z[0] + 1e-9 * (bricks.z[-1] - bricks.z[0])
+    for axis, lines in ((0, bricks.x), (1, bricks.y)):
+        side = bricks.nodes[axis] <= 1e-12 * lines[-1]
+        for component in range(3):
+            if support.sides_clamped or component != axis:
+                held[component] |= side
+    return held

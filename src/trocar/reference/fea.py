@@ -1,0 +1,207 @@
+"""The finite-element reference: a layered linear elastic block, static and dynamic, on scikit-fem.
+
+    M u'' + C u' + K u = f(t),    C = sum over layers of tau K_layer
+
+on 20-node bricks with reduced integration, a quarter of the block at a time (`parity`). Small displacements and
+strains, isotropic layers perfectly bonded, in-plane prestress as geometric stiffness, dead traction. It shares no code
+with the wave models it judges.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+
+import numpy as np
+
+from trocar.errors import InputError
+from trocar.model import FloatArray, Load, Press, Support
+from trocar.reference.block import MeshSize, quarter_mesh
+from trocar.reference.forces import nodal_forces
+from trocar.reference.mesh import Bricks
+from trocar.reference.parity import QUARTERS, Parity, fold, mirror_signs
+from trocar.reference.quarter import QuarterSystem
+from trocar.reference.solver import choose_solver
+from trocar.reference.state import FEAState
+from trocar.tissues import Tissue
+
+_CACHED_PRESSES = 64  # unit responses kept; each is a few arrays the size of the mesh
+_DEFAULT_RADIUS = 1 / 15  # of the shorter side: 4 mm on a 60 mm block
+
+
+class FEASolid:
+    """Solve a layered block by finite elements; a `TissueModel`.
+
+    Args:
+        tissue: the layers.
+        size: sides a, b of the block [m].
+        support: how the block is held, or its name.
+        around: presses the mesh is made for: their footprints are finely meshed, their forces do not matter. Loads
+            elsewhere are correct but coarse. None: a 1/15 of the shorter side in the middle.
+        mesh: how finely.
+        solver: "superlu", "pardiso" (Intel MKL, from the extra `trocar[pardiso]`) or "auto", the fastest installed.
+
+    Raises:
+        InputError: an argument is not possible.
+    """
+
+    def __init__(
+        self,
+        tissue: Tissue,
+        *,
+        size: tuple[float, float],
+        support: Support | str,
+        around: Load = (),
+        mesh: MeshSize | None = None,
+        solver: str = "auto",
+    ) -> None:
+        self._tissue = tissue
+        self._size = _checked_size(size)
+        self._support = _checked_support(support)
+        self.solver_name = choose_solver(solver)
+        a, b = self._size
+        self._around = around or (Press(x=a / 2, y=b / 2, radius=_DEFAULT_RADIUS * min(a, b), force=1.0),)
+        bricks = quarter_mesh(tissue, self._size, self._around, mesh or MeshSize())
+        self._system = QuarterSystem(bricks, tissue, self._support, self.solver_name)
+        self._parities = {p for press in self._around for p in self._forces((press.with_force(1.0),))}
+        self._unit: dict[Press, dict[Parity, FloatArray]] = {}
+
+    @property
+    def tissue(self) -> Tissue:
+        """The layers."""
+        return self._tissue
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Sides a, b of the block along x and y [m]."""
+        return self._size
+
+    @property
+    def support(self) -> Support:
+        """How the block is held."""
+        return self._support
+
+    @property
+    def bricks(self) -> Bricks:
+        """The mesh of the quarter 0 <= x <= a/2, 0 <= y <= b/2."""
+        return self._system.bricks
+
+    @property
+    def dofs(self) -> int:
+        """Unknowns solved for: of the quarter, added over the parities in use by `around` and by loads so far."""
+        return sum(len(self._system.free(parity)) for parity in self._parities)
+
+    def init(self) -> FEAState:
+        """Return the state at rest at time 0."""
+        return FEAState(time=0.0, displacement={}, velocity={})
+
+    def static(self, load: Load) -> FEAState:
+        """Return the equilibrium under a constant load, at time 0.
+
+        The response to a unit force on every footprint is kept, so a history of forces costs one solve in all.
+
+        Raises:
+            InputError: a footprint is not wholly on the block.
+            SolverError: the equations could not be solved accurately.
+        """
+        total: dict[Parity, FloatArray] = {}
+        for press in load:
+            for parity, unit in self._unit_response(press.with_force(1.0)).items():
+                total[parity] = total.get(parity, 0.0) + press.force * unit
+        return FEAState(time=0.0, displacement=total, velocity={})
+
+    def step(self, state: FEAState, load0: Load, load1: Load, dt: float) -> FEAState:
+        """Advance by dt [s] under a load going linearly from load0 to load1, with Newmark's average acceleration.
+
+        The factorisation is kept for each dt.
+
+        Raises:
+            InputError: dt is not above 0, the loads hold unequally many presses, or one is off the block.
+            SolverError: the equations could not be solved accurately.
+        """
+        if not (isfinite(dt) and dt > 0):
+            raise InputError("dt", "a finite time above 0", dt)
+        if len(load0) != len(load1):
+            raise InputError(
+                "load1", f"{len(load0)} presses, as in load0", len(load1), "give an idle press force 0"
+            )
+        force0, force1 = self._forces(load0), self._forces(load1)
+        parities = {*state.displacement, *state.velocity, *force0, *force1}
+        rest = np.zeros(self.bricks.nodes.shape)
+        displacement, velocity = {}, {}
+        for parity in parities:
+            displacement[parity], velocity[parity] = self._system.step(
+                parity,
+                state.displacement.get(parity, rest),
+                state.velocity.get(parity, rest),
+                0.5 * (force0.get(parity, rest) + force1.get(parity, rest)),
+                dt,
+            )
+        self._parities |= parities
+        return FEAState(time=state.time + dt, displacement=displacement, velocity=velocity)
+
+    def displacement(self, state: FEAState, points: FloatArray, layer: str | None = None) -> FloatArray:
+        """Return the displacement [m], shape (n, 3), of a layer's upper face (None: the top layer's).
+
+        Args:
+            state: of this model.
+            points: rest positions [m], shape (n, 3); only x and y are used.
+            layer: name of the layer.
+
+        Raises:
+            InputError: a point is off the block, or there is no such layer.
+        """
+        line = self.bricks.upper_face(self._tissue.index(layer))
+        folded, mirrored = fold(points, self._size)
+        nodes, weights = self.bricks.interpolation(folded, line)
+        total = np.zeros((3, len(folded)))
+        for parity, field in state.displacement.items():
+            total += mirror_signs(parity, mirrored) * np.einsum("can,an->cn", field[:, nodes], weights)
+        return total.T
+
+    def reaction(self, state: FEAState, load: Load = ()) -> FloatArray:
+        """Return the force of the supports on the block [N], shape (3,).
+
+        Args:
+            state: of this model; of a moving one, the inertia of the held nodes is left out.
+            load: the load at that time; it matters only where a footprint reaches into an element at a held side,
+                whose nodes then carry some of it straight to the support.
+        """
+        system, forces, total = self._system, self._forces(load), np.zeros(3)
+        every_quarter = np.array(QUARTERS)
+        for parity in {*state.displacement, *forces}:
+            flat = np.zeros(system.held.size)
+            if parity in state.displacement:
+                flat += system.stiffness @ state.displacement[parity].ravel()
+            if parity in state.velocity:
+                flat += system.damping @ state.velocity[parity].ravel()
+            if parity in forces:
+                flat -= forces[parity].ravel()
+            nodal = np.where(system.held, flat.reshape(system.held.shape), 0.0)
+            total += mirror_signs(parity, every_quarter).sum(axis=1) * nodal.sum(axis=1)
+        return total
+
+    def _unit_response(self, press: Press) -> dict[Parity, FloatArray]:
+        if press not in self._unit:
+            forces = self._forces((press,))
+            response = {parity: self._system.equilibrium(parity, force) for parity, force in forces.items()}
+            self._parities |= set(response)
+            if len(self._unit) >= _CACHED_PRESSES:
+                self._unit.pop(next(iter(self._unit)))
+            self._unit[press] = response
+        return self._unit[press]
+
+    def _forces(self, load: Load) -> dict[Parity, FloatArray]:
+        return nodal_forces(self.bricks, self._size, load)
+
+
+def _checked_size(size: tuple[float, float]) -> tuple[float, float]:
+    if len(size) != 2 or not all(isfinite(side) and side > 0 for side in size):
+        raise InputError("size", "two finite sides above 0 [m]", size)
+    return float(size[0]), float(size[1])
+
+
+def _checked_support(support: Support | str) -> Support:
+    try:
+        return Support(support)
+    except ValueError:
+        raise InputError("support", f"one of {', '.join(Support)}", support) from None

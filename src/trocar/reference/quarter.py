@@ -1,0 +1,114 @@
+"""The equations of the quarter: matrices assembled once, one factorisation for every parity in use."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+
+from trocar.model import FloatArray, Support
+from trocar.reference.assembly import damping, mass, stiffness
+from trocar.reference.block import held_by_support
+from trocar.reference.mesh import Bricks, IntArray
+from trocar.reference.ordering import dissection_order
+from trocar.reference.parity import Parity, held_on_mirrors
+from trocar.reference.solver import Factorisation
+from trocar.tissues import Tissue
+
+
+class QuarterSystem:
+    """M u'' + C u' + K u = f on the quarter of a block.
+
+    Args:
+        bricks: the quarter's mesh.
+        tissue: the layers.
+        support: how the block is held.
+        solver: "superlu" or "pardiso".
+    """
+
+    def __init__(self, bricks: Bricks, tissue: Tissue, support: Support, solver: str) -> None:
+        self.bricks = bricks
+        self._layers = tissue.layers
+        self._solver = solver
+        self.held = held_by_support(bricks, support)
+        self._free: dict[Parity, IntArray] = {}
+        self._static: dict[Parity, Factorisation] = {}
+        self._dynamic: dict[tuple[Parity, float], Factorisation] = {}
+
+    @cached_property
+    def stiffness(self) -> sp.csr_array:
+        """K [N/m], prestress included."""
+        return stiffness(self.bricks, self._layers)
+
+    @cached_property
+    def damping(self) -> sp.csr_array:
+        """C [N s/m]."""
+        return damping(self.bricks, self._layers)
+
+    @cached_property
+    def mass(self) -> sp.csr_array:
+        """M [kg]."""
+        return mass(self.bricks, self._layers)
+
+    @cached_property
+    def _order(self) -> IntArray:
+        nodes = dissection_order(self.bricks)
+        return (nodes[:, None] + len(nodes) * np.arange(3)).ravel()
+
+    def free(self, parity: Parity) -> IntArray:
+        """Return the unknowns of a parity in the order of their elimination."""
+        if parity not in self._free:
+            held = self.held | held_on_mirrors(self.bricks, parity)
+            self._free[parity] = self._order[~held.ravel()[self._order]]
+        return self._free[parity]
+
+    def equilibrium(self, parity: Parity, force: FloatArray) -> FloatArray:
+        """Solve K u = f; force [N] and displacement [m] of shape (3, nodes)."""
+        free = self.free(parity)
+        if parity not in self._static:
+            self._static[parity] = Factorisation(_submatrix(self.stiffness, free), self._solver)
+        return self._spread(self._static[parity].solve(force.ravel()[free]), free)
+
+    def step(
+        self,
+        parity: Parity,
+        displacement: FloatArray,
+        velocity: FloatArray,
+        mean_force: FloatArray,
+        dt: float,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Advance by dt [s] with Newmark's average acceleration, written for displacement and velocity alone:
+
+            u1 - u0 = dt (v0 + v1) / 2,    M (v1 - v0) + dt C (v0 + v1) / 2 + dt K (u0 + u1) / 2 = dt (f0 + f1) / 2.
+
+        Second order, stable for every dt, and without damping it keeps v M v / 2 + u K u / 2 (Newmark 1959; Hughes
+        1987, sec. 9.1). No acceleration is stored, so a load may jump between two steps.
+
+        Args:
+            parity: of the part.
+            displacement, velocity: at the start [m], [m/s], shape (3, nodes).
+            mean_force: mean of the nodal forces at start and end [N], shape (3, nodes).
+            dt: [s].
+
+        Returns:
+            Displacement and velocity at the end.
+        """
+        free = self.free(parity)
+        key = (parity, dt)
+        if key not in self._dynamic:
+            matrix = self.mass + 0.5 * dt * self.damping + 0.25 * dt**2 * self.stiffness
+            self._dynamic[key] = Factorisation(_submatrix(matrix, free), self._solver)
+        u, v = displacement.ravel(), velocity.ravel()
+        momentum = dt * (mean_force.ravel() - self.damping @ v - self.stiffness @ (u + 0.5 * dt * v))
+        change = self._spread(self._dynamic[key].solve(momentum[free]), free)
+        return displacement + dt * (velocity + 0.5 * change), velocity + change
+
+    def _spread(self, values: FloatArray, free: IntArray) -> FloatArray:
+        field = np.zeros(self.held.size)
+        field[free] = values
+        return field.reshape(self.held.shape)
+
+
+def _submatrix(matrix: sp.csr_array, rows: IntArray) -> sp.csr_array:
+    return sp.csr_array(matrix[rows][:, rows])
