@@ -54,18 +54,12 @@ def fitted_stack(tissue: Tissue, *, size: tuple[float, float], support: Support)
     """
     even = Tissue(layers=tuple(_evenly_prestressed(layer) for layer in tissue.layers), name=tissue.name)
     target = _target(even, size, support)
-    stack = _fit_static(derived_stack(even, support), target, support)
+    stack = _fit_static(even, target, support)
     stack = _fit_rates(stack, target)
     sheets = []
     for sheet, layer in zip(stack.sheets, tissue.layers, strict=True):
         half = 0.5 * (layer.prestress_x - layer.prestress_y) * layer.thickness
-        sheets.append(
-            replace(
-                sheet,
-                tension_x=max(sheet.tension_x + half, 0.0),
-                tension_y=max(sheet.tension_y - half, 0.0),
-            )
-        )
+        sheets.append(replace(sheet, tension_x=sheet.tension_x + half, tension_y=sheet.tension_y - half))
     return replace(stack, sheets=tuple(sheets))
 
 
@@ -105,13 +99,14 @@ def _moments(layers: ThinLayers, at: Wavenumbers) -> tuple[FloatArray, FloatArra
     return response[:, faces], damping, inertia
 
 
-def _fit_static(start: Stack, target: _Target, support: Support) -> Stack:
+def _fit_static(tissue: Tissue, target: _Target, support: Support) -> Stack:
+    start = derived_stack(tissue, support)
     layers = len(start.sheets)
-    first = np.array(
-        [sheet.tension_x for sheet in start.sheets]
-        + [sheet.bending for sheet in start.sheets]
-        + [coupling.stiffness for coupling in start.couplings]
-    )
+    first = _coefficients(start)
+    # A prestress is a tension whatever else a layer does; the fit adds to it.
+    prestress = np.zeros(len(first))
+    prestress[:layers] = [layer.prestress_x * layer.thickness for layer in tissue.layers]
+    first -= prestress
     free = np.ones(len(first), dtype=bool)
     free[-1] = support.base_held
     wanted = target.profile @ target.compliance
@@ -120,7 +115,7 @@ def _fit_static(start: Stack, target: _Target, support: Support) -> Stack:
     def coefficients(logarithms: FloatArray) -> FloatArray:
         values = first.copy()
         values[free] *= np.exp(logarithms)
-        return values
+        return values + prestress
 
     def misfit(logarithms: FloatArray) -> FloatArray:
         response = _response(coefficients(logarithms), layers, target.at)
@@ -135,6 +130,15 @@ def _fit_static(start: Stack, target: _Target, support: Support) -> Stack:
         for sheet, t, d in zip(start.sheets, values[:layers], values[layers : 2 * layers], strict=True)
     )
     return Stack(sheets=sheets, couplings=tuple(Coupling(stiffness=float(c)) for c in values[2 * layers :]))
+
+
+def _coefficients(stack: Stack) -> FloatArray:
+    """Return tensions along x, bending stiffnesses and couplings, one after the other."""
+    return np.array(
+        [sheet.tension_x for sheet in stack.sheets]
+        + [sheet.bending for sheet in stack.sheets]
+        + [coupling.stiffness for coupling in stack.couplings]
+    )
 
 
 def _response(values: FloatArray, layers: int, at: Wavenumbers) -> FloatArray:
@@ -157,11 +161,7 @@ def _response(values: FloatArray, layers: int, at: Wavenumbers) -> FloatArray:
 
 def _fit_rates(stack: Stack, target: _Target) -> Stack:
     layers = len(stack.sheets)
-    values = np.array(
-        [sheet.tension_x for sheet in stack.sheets]
-        + [sheet.bending for sheet in stack.sheets]
-        + [coupling.stiffness for coupling in stack.couplings]
-    )
+    values = _coefficients(stack)
     response = _response(values, layers, target.at)
     k2 = target.at.k[:, None] ** 2
     own = (values[layers : 2 * layers] * k2**2 + values[:layers] * k2) * response**2
