@@ -56,6 +56,7 @@ lock:  ## pin every dependency again, by hash (needs Python 3.11: what it resolv
 	compile --output-file requirements/runtime.txt pyproject.toml
 	build/lock/bin/python -c '$(DEV_GROUP)' > requirements/dev.in
 	compile --output-file requirements/dev.txt --constraint requirements/runtime.txt pyproject.toml requirements/dev.in
+	sed -i 's|-r requirements/dev.in|the dev group (pyproject.toml)|' requirements/dev.txt
 	rm requirements/dev.in
 
 .PHONY: clean

@@ -1,6 +1,6 @@
 """The command line: one file per command, each of which parses, calls one library function and renders.
 
-A module of this package that has a function `register(app)` is a command; nothing else needs editing:
+A module of this package that has a function `register(app)` is a command; nothing else needs editing::
 
     def register(app: typer.Typer) -> None:
         app.command(epilog="Example: trocar compare case.toml --models wave-solid,fea")(compare)

@@ -1,11 +1,9 @@
 """How a command ends: every error is one line on stderr and an exit code, and a user's mistake no traceback.
 
-| what happened | exit code |
-|---|---|
-| done, whatever the models, the ledger or the score say | 0 |
-| it could not be done: a solver failed, a file cannot be written, memory ran out | 1 |
-| wrong usage or bad input | 2 |
-| interrupted from the keyboard | 130 |
+- 0: done, whatever the models, the ledger or the score say.
+- 1: it could not be done: a solver failed, a file cannot be written, memory ran out.
+- 2: wrong usage or bad input.
+- 130: interrupted from the keyboard.
 
 Anything else is a mistake of ours and keeps its traceback.
 """
@@ -17,6 +15,7 @@ import sys
 from collections.abc import Sequence
 from typing import Protocol
 
+from pydantic import ValidationError
 from typer.exceptions import Abort, TyperException
 
 from trocar.errors import InputError, TrocarError
@@ -75,10 +74,12 @@ def _leave(code: int, program: str, sentence: str) -> int:
 def _usage_sentence(error: TyperException, program: str) -> str:
     context = getattr(error, "ctx", None)  # knows which command was being parsed
     command = program if context is None else context.command_path
-    message = (
-        error.format_message().rstrip(". ") or "expected a command"
-    )  # empty: the help is printed already
-    return f"{message}; see {command} --help"
+    sentence = error.format_message().rstrip(". ")
+    if isinstance(error.__cause__, ValidationError):  # says what was expected, not what came
+        sentence += f", got {error.__cause__.errors()[0]['input']!r}"
+    if not sentence:  # no arguments at all; typer has printed the help
+        sentence = "expected a command"
+    return f"{sentence}; see {command} --help"
 
 
 def _system_sentence(error: OSError) -> str:
