@@ -17,10 +17,10 @@ WORKERS ?= 2
 
 .PHONY: help
 help:  ## list the targets
-	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /\1\t/' | expand -t 12 | sed 's/^/make /'
+	@sed -nE 's/^([a-z]+)( [a-z]+)?:.*## /make \1\t/p' $(MAKEFILE_LIST) | expand -t 12
 
 .PHONY: run study
-run study: .venv/ready  ## set up, then run the validation study into study/
+run study: .venv/ready  ## set up, then run the validation study into study/ (make study is the same)
 	@.venv/bin/trocar study --out study
 
 .PHONY: test
