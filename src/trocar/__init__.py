@@ -1,3 +1,50 @@
-"""Trocar: a laparoscopy trainer whose soft tissue is a wave equation, and the laboratory that judges it."""
+"""Trocar: a laparoscopy trainer whose soft tissue is a wave equation, and the laboratory that judges it.
+
+The public names below are imported on first use (PEP 562), so `import trocar` itself costs next to nothing
+and a command that only lists tissues never loads a solver. `trocar.tissue("skin")` returns a preset; the
+package it lives in is `trocar.tissues`.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # the same names for type checkers and editors
+    from trocar.model import Press as Press
+    from trocar.model import Support as Support
+    from trocar.tissues.layer import Layer as Layer
+    from trocar.tissues.tissue import Tissue as Tissue
 
 __version__ = "0.1.0"
+
+_HOME = {  # public name: the module it lives in
+    "FEASolid": "trocar.reference.fea",
+    "Layer": "trocar.tissues.layer",
+    "Press": "trocar.model",
+    "Support": "trocar.model",
+    "Tissue": "trocar.tissues.tissue",
+    "WaveMembrane": "trocar.waves.membrane",
+    "WaveSolid": "trocar.waves.solid",
+    "compare": "trocar.study.compare",
+    "load_case": "trocar.study.case",
+    "tissue": "trocar.tissues.catalogue",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Import a public name on first use.
+
+    Raises:
+        AttributeError: there is no such name.
+    """
+    if name not in _HOME:
+        raise AttributeError(f"module 'trocar' has no attribute {name!r}")
+    value = getattr(import_module(_HOME[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """Return the public names, imported yet or not."""
+    return sorted({*globals(), *_HOME})

@@ -1,7 +1,8 @@
 """What every tissue model is: loads in, states out, time moved only by `step`.
 
-A load is a set of presses. A press spreads a force over a footprint on the top face, z = 0; z points out of the
-tissue, so pushing in means a negative z component and a negative u_z. The block covers 0 <= x <= a, 0 <= y <= b.
+A load is a set of presses. A press spreads a force over a footprint on the top face, z = 0; z points out of
+the tissue, so pushing in means a negative z component and a negative u_z. The block covers 0 <= x <= a,
+0 <= y <= b.
 """
 
 from __future__ import annotations
@@ -50,8 +51,8 @@ class Profile(StrEnum):
 class Press:
     """A force spread over a tool's footprint as dead traction.
 
-    A tool tilted by `tilt` leaves an ellipse: semi-axis radius/cos(tilt) along the azimuth, radius across it. The
-    force acts along the tool's axis: cos(tilt) of it presses in, sin(tilt) drags along the azimuth.
+    A tool tilted by `tilt` leaves an ellipse: semi-axis radius/cos(tilt) along the azimuth, radius across it.
+    The force acts along the tool's axis: cos(tilt) of it presses in, sin(tilt) drags along the azimuth.
 
     Args:
         x, y: centre of the footprint on the top face [m].
