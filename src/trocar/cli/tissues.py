@@ -91,7 +91,7 @@ def _table(*columns: str, title: str | None = None) -> Table:
 
 
 def _list_table(records: list[TissueRecord]) -> Table:
-    table = _table("preset", "what it is", "layers, top first", "mm", "values")
+    table = _table("preset", "what it is", "layers", "mm", "values")
     table.columns[0].no_wrap = True
     table.columns[3].justify = "right"
     for record in records:

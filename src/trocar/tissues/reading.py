@@ -68,7 +68,7 @@ def parse_tissue(text: str, *, file: str, name: str) -> TissueRecord:
     """
     try:
         content = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except (ValueError, RecursionError) as error:  # also: an integer too long, brackets too deep
         raise InputError(file, "a TOML file", str(error)) from None
     table = _Table(content, file, "")
     title, why = table.text("title"), table.text("why")
