@@ -93,6 +93,15 @@ def test_derived_values_follow_from_what_was_read() -> None:
     assert written("silicone-pad", "skin", "loss_factor") == pytest.approx(ratio, abs=0.005)
 
 
+def test_the_reason_for_matching_damping_at_50_hz() -> None:
+    epidermis, dermis, fat = trocar.tissue("skin").layers
+    spring = fat.young_modulus / fat.thickness
+    mass = epidermis.thickness * epidermis.density + dermis.thickness * dermis.density
+    assert sqrt(spring / mass) / (2 * pi) == pytest.approx(52, abs=0.5)  # as quoted, in Hz
+    matched_at_1_hz = dermis.loss_factor / (2 * pi)
+    assert 1 / (pi * matched_at_1_hz) == pytest.approx(14, abs=0.5)  # as quoted, in Hz
+
+
 def test_the_paper_preset_is_refused_with_advice() -> None:
     with pytest.raises(InputError, match=r"skin-paper-2014.*own formula.*paper-2014.*take 'skin' instead"):
         trocar.tissue("skin-paper-2014")
