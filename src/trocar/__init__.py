@@ -13,8 +13,12 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:  # the same names for type checkers and editors
     from trocar.model import Press as Press
     from trocar.model import Support as Support
+    from trocar.reference.fea import FEASolid as FEASolid
+    from trocar.tissues.catalogue import tissue as tissue
     from trocar.tissues.layer import Layer as Layer
     from trocar.tissues.tissue import Tissue as Tissue
+    from trocar.waves.membrane import WaveMembrane as WaveMembrane
+    from trocar.waves.solid import WaveSolid as WaveSolid
 
 __version__ = "0.1.0"
 

@@ -1,6 +1,7 @@
 """Tissues: frozen layers and the presets, each property with its source."""
 
 from trocar.tissues.layer import Layer
+from trocar.tissues.record import TissueRecord
 from trocar.tissues.tissue import Tissue
 
-__all__ = ["Layer", "Tissue"]
+__all__ = ["Layer", "Tissue", "TissueRecord"]
