@@ -16,7 +16,6 @@ import numpy as np
 import numpy.typing as npt
 
 from trocar.errors import InputError
-from trocar.tissues.tissue import Tissue
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -119,8 +118,8 @@ class TissueModel(Protocol[S]):
     """A tissue that can be loaded, stepped and looked at."""
 
     @property
-    def tissue(self) -> Tissue:
-        """The layers."""
+    def layer_names(self) -> tuple[str, ...]:
+        """Names of the layers, top first."""
         ...
 
     @property
@@ -131,6 +130,11 @@ class TissueModel(Protocol[S]):
     @property
     def support(self) -> Support:
         """How the block is held."""
+        ...
+
+    @property
+    def dofs(self) -> int:
+        """Unknowns solved for by the loads so far."""
         ...
 
     def init(self) -> S:

@@ -90,6 +90,11 @@ class WaveMembrane:
         """Highest m and n."""
         return self._series.modes
 
+    @property
+    def dofs(self) -> int:
+        """Amplitudes solved for: modes times layers."""
+        return self.modes[0] * self.modes[1] * len(self.layer_names)
+
     def init(self) -> WaveState:
         """Return the state at rest at time 0."""
         return WaveState(0.0, (self.oscillators.rest,))

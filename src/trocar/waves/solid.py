@@ -73,6 +73,12 @@ class WaveSolid:
         """Highest m and n of the static series."""
         return self._series.modes
 
+    @property
+    def dofs(self) -> int:
+        """Amplitudes solved for by the loads so far: wavenumbers they reach times unknowns through the thickness."""
+        across = int(np.isfinite(self._compliance_wv[..., 0, 0, 0]).sum()) * self._layers_wv.size
+        return across + int(np.isfinite(self._compliance_s[..., 0, 0, 0]).sum()) * self._layers_s.size
+
     def init(self) -> WaveState:
         """Return the state at rest at time 0."""
         return WaveState(0.0, (self.oscillators_wv.rest, self.oscillators_s.rest))

@@ -1,0 +1,65 @@
+"""trocar compare: one case through several models."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from trocar.study.compare import Comparison
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command(epilog="Example: trocar compare examples/press.toml --models wave-solid,wave-membrane,fea")(compare)
+
+
+def compare(
+    case: Annotated[Path, typer.Argument(help="A case file in TOML (docs: reference/case-file).", show_default=False)],
+    models: Annotated[
+        str, typer.Option(help="Which models, separated by commas: wave-membrane, wave-solid, fea.")
+    ] = "wave-solid,fea",
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON alone on stdout.")] = False,
+) -> None:
+    """Run one case through several models and print what each says."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from trocar.study.case import load_case
+    from trocar.study.compare import compare as run
+    from trocar.study.models import check_names
+
+    experiment = load_case(case)
+    names = check_names([name.strip() for name in models.split(",") if name.strip()])
+    with Progress(console=Console(stderr=True), transient=True) as bars:
+        tasks = {name: bars.add_task(name, total=1.0) for name in names}
+        result = run(experiment, names, watch=lambda name, share: bars.update(tasks[name], completed=share))
+    if as_json:
+        typer.echo(json.dumps(result.as_dict()))
+    else:
+        _print(result)
+
+
+def _print(result: Comparison) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    from trocar.units import MILLIMETRE
+
+    console = Console()
+    case = result.case
+    sides = " x ".join(f"{side / MILLIMETRE:g}" for side in case.size)
+    console.print(f"[bold]{case.title}[/]: {sides} mm, support {case.support.value}, peak {case.peak_force:g} N")
+    table = Table()
+    table.add_column("largest deflection, mm")
+    for history in result.histories:
+        table.add_column(history.model, justify="right")
+    for layer in case.tissue.layer_names:
+        table.add_row(layer, *(f"{history.deflection[layer].max() / MILLIMETRE:.4g}" for history in result.histories))
+    table.add_section()
+    table.add_row("processor time, s", *(f"{history.cpu_seconds:.3g}" for history in result.histories))
+    table.add_row("unknowns", *(f"{history.dofs}" for history in result.histories))
+    console.print(table)

@@ -1,0 +1,78 @@
+"""One case through several models, side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from trocar.study.experiment import Case
+from trocar.study.history import History, run
+from trocar.study.models import MODELS, check_names
+from trocar.units import MILLIMETRE
+
+Watch = Callable[[str, float], None]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """A case and what each model says of it, in the order asked for."""
+
+    case: Case
+    histories: tuple[History, ...]
+
+    def __getitem__(self, model: str) -> History:
+        """Return one model's history.
+
+        Raises:
+            KeyError: the case was not run through it.
+        """
+        for history in self.histories:
+            if history.model == model:
+                return history
+        raise KeyError(model)
+
+    def as_dict(self) -> dict[str, object]:
+        """Return plain values for JSON: seconds, newtons and millimetres."""
+        case = self.case
+        return {
+            "case": {
+                "title": case.title,
+                "size_mm": [side / MILLIMETRE for side in case.size],
+                "support": case.support.value,
+                "layers": list(case.tissue.layer_names),
+                "tools": len(case.tools),
+                "peak_n": case.peak_force,
+                "dynamic": case.sampling.dynamic,
+            },
+            "models": {history.model: _plain(history) for history in self.histories},
+        }
+
+
+def compare(
+    case: Case, models: Sequence[str] = ("wave-solid", "fea"), *, watch: Watch = lambda _model, _share: None
+) -> Comparison:
+    """Run a case through several models.
+
+    Args:
+        case: the experiment.
+        models: names, of those in `trocar.study.models.MODELS`.
+        watch: told the model and the share of it done, 0 to 1, as the work goes on.
+
+    Raises:
+        InputError: a name is unknown, or that model is not built yet.
+        SolverError: a model could not be solved.
+    """
+    histories = []
+    for name in check_names(models):
+        histories.append(run(case, name, MODELS[name], lambda share, name=name: watch(name, share)))  # type: ignore[misc]
+    return Comparison(case=case, histories=tuple(histories))
+
+
+def _plain(history: History) -> dict[str, object]:
+    return {
+        "time_s": history.time.tolist(),
+        "force_n": history.force.tolist(),
+        "max_deflection_mm": {name: (depth / MILLIMETRE).tolist() for name, depth in history.deflection.items()},
+        "cpu_s": history.cpu_seconds,
+        "dofs": history.dofs,
+    }

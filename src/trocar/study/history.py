@@ -1,0 +1,109 @@
+"""One case through one model: deflection of every layer against time, and what it cost."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import process_time
+
+import numpy as np
+
+from trocar.model import FloatArray
+from trocar.study.deflection import deflections, search_points
+from trocar.study.experiment import Case
+from trocar.study.models import AnyModel
+
+Progress = Callable[[float], None]
+_IMPLICIT_STEP = 2.5e-4  # [s] of finite elements: a hundredth of a 40 Hz period, 0.1 % of its phase
+_MOST_IMPLICIT_STEPS = 4000  # in one case: a longer one takes longer steps, its load being slower too
+
+
+@dataclass(frozen=True, kw_only=True)
+class History:
+    """What one model says of one case.
+
+    Attributes:
+        model: its name.
+        time: samples [s], shape (n,).
+        force: of all tools together, along their axes [N], shape (n,).
+        deflection: largest of each layer's upper face [m], layers top first, each of shape (n,).
+        cpu_seconds: processor time of building the model and of all samples [s].
+        setup_seconds: the part of it spent before the first sample [s].
+        dofs: unknowns solved for.
+    """
+
+    model: str
+    time: FloatArray
+    force: FloatArray
+    deflection: dict[str, FloatArray]
+    cpu_seconds: float
+    setup_seconds: float
+    dofs: int
+
+    @property
+    def block(self) -> FloatArray:
+        """Largest deflection of any face at each time [m], shape (n,)."""
+        result: FloatArray = np.max(list(self.deflection.values()), axis=0)
+        return result
+
+
+def run(case: Case, name: str, build: Callable[[Case], AnyModel], progress: Progress = lambda _: None) -> History:
+    """Run a case through a model.
+
+    Args:
+        case: the experiment.
+        name: of the model.
+        build: makes the model for the case.
+        progress: told the share done, 0 to 1.
+    """
+    began = process_time()
+    model = build(case)
+    times = case.sample_times()
+    layers = case.tissue.layer_names
+    follow = _moving if case.sampling.dynamic else _quasi_static
+    depths, setup = follow(case, model, times, progress)
+    return History(
+        model=name,
+        time=times,
+        force=np.array([sum(press.force for press in case.load_at(t)) for t in times]),
+        deflection=dict(zip(layers, depths, strict=True)),
+        cpu_seconds=process_time() - began,
+        setup_seconds=setup - began,
+        dofs=model.dofs,
+    )
+
+
+def _quasi_static(case: Case, model: AnyModel, times: FloatArray, progress: Progress) -> tuple[FloatArray, float]:
+    """Superpose each tool's response to 1 N: the models are linear, so equilibria add and scale."""
+    load = case.load_at(0.0)
+    points = search_points(case.size, load)
+    layers = case.tissue.layer_names
+    units = []
+    for i, press in enumerate(load):
+        units.append(deflections(model, model.static((press.with_force(1.0),)), points, layers))
+        progress((i + 1) / len(load))
+    setup = process_time()
+    forces = np.array([[press.force for press in case.load_at(t)] for t in times])
+    if len(units) == 1:
+        return np.outer(units[0].max(axis=1), forces[:, 0]), setup
+    depths = np.empty((len(layers), len(times)))
+    for i, at in enumerate(forces):
+        depths[:, i] = np.tensordot(at, np.stack(units), 1).max(axis=1)
+    return depths, setup
+
+
+def _moving(case: Case, model: AnyModel, times: FloatArray, progress: Progress) -> tuple[FloatArray, float]:
+    points = search_points(case.size, case.load_at(0.0))
+    layers = case.tissue.layer_names
+    state = model.init()
+    longest = np.inf if hasattr(model, "oscillators") else max(_IMPLICIT_STEP, case.duration / _MOST_IMPLICIT_STEPS)
+    depths = np.zeros((len(layers), len(times)))
+    setup = process_time()
+    for i, (start, end) in enumerate(zip(times[:-1], times[1:], strict=True)):
+        count = max(1, int(np.ceil((end - start) / longest - 1e-9)))
+        marks = np.linspace(start, end, count + 1)
+        for t0, t1 in zip(marks[:-1], marks[1:], strict=True):
+            state = model.step(state, case.load_at(t0), case.load_at(t1), t1 - t0)
+        depths[:, i + 1] = deflections(model, state, points, layers).max(axis=1)
+        progress((i + 1) / (len(times) - 1))
+    return depths, setup
