@@ -5,10 +5,12 @@ G_kl = R[k, l] V / (h_k h_l), V = h_x h_y h_z. In these
 
     K_ij = lambda G_ij + mu G_ji + delta_ij sum over k of (mu + sigma_k) G_kk
 
-(Hughes 1987, The Finite Element Method, sec. 2.7, and for the prestress sigma_k, Zienkiewicz and Taylor 2000, vol. 2,
-the initial-stress matrix of small displacements upon a stressed state). Stiffness uses the reduced 2 x 2 x 2 rule,
-which keeps the 20-node brick free of volumetric locking near incompressibility (Zienkiewicz, Taylor and Too 1971);
-the mass uses 3 x 3 x 3, which is exact.
+(Hughes 1987, The Finite Element Method, sec. 2.7; for the prestress sigma_k, Zienkiewicz and Taylor 2000, vol. 2, the
+initial-stress matrix of small displacements upon a stressed state). Only the lambda term uses the reduced 2 x 2 x 2
+rule, all others the exact 3 x 3 x 3 one: selective reduced integration (Malkus and Hughes 1978, Comput. Methods Appl.
+Mech. Eng. 15:63). Reducing both, as is common, leaves the element modes without energy; under a flat tool they
+wrinkle a thin top layer by 0.2 % of its deflection, in the pattern of the mesh, however fine. Reducing neither locks:
+0.6 % too stiff at Poisson's ratio 0.48 on the default mesh.
 """
 
 from __future__ import annotations
@@ -53,23 +55,28 @@ def mass(bricks: Bricks, layers: tuple[Layer, ...]) -> sp.csr_array:
 
 
 def _elastic(bricks: Bricks, lame: FloatArray, shear: FloatArray, tension: FloatArray) -> sp.csr_array:
-    points, weights = bricks.gauss_rule(REDUCED_ORDER)
-    gradients = shape_functions(points)[1]
-    reference = np.einsum("akq,blq,q->klab", gradients, gradients, weights).reshape(3, 3, -1)
+    reduced, exact = (_reference_stiffness(bricks, order) for order in (REDUCED_ORDER, EXACT_ORDER))
     volume = bricks.edges.prod(axis=0)
     lam, mu, sigma = (values[bricks.element_layer] for values in (lame, shear, tension))
 
     def block(i: int, j: int) -> sp.csr_array:
         scale = volume / (bricks.edges[i] * bricks.edges[j])
-        entries = np.outer(lam * scale, reference[i, j]) + np.outer(mu * scale, reference[j, i])
+        entries = np.outer(lam * scale, reduced[i, j]) + np.outer(mu * scale, exact[j, i])
         if i == j:
             for k in range(3):
-                entries += np.outer((mu + sigma[:, k]) * volume / bricks.edges[k] ** 2, reference[k, k])
+                entries += np.outer((mu + sigma[:, k]) * volume / bricks.edges[k] ** 2, exact[k, k])
         return _scatter(bricks, entries)
 
     upper = {(i, j): block(i, j) for i in range(3) for j in range(i, 3)}
     rows = [[upper[i, j] if i <= j else upper[j, i].T for j in range(3)] for i in range(3)]
     return sp.csr_array(sp.block_array(rows, format="csr"))
+
+
+def _reference_stiffness(bricks: Bricks, order: int) -> FloatArray:
+    points, weights = bricks.gauss_rule(order)
+    gradients = shape_functions(points)[1]
+    products: FloatArray = np.einsum("akq,blq,q->klab", gradients, gradients, weights)
+    return products.reshape(3, 3, -1)
 
 
 def _scatter(bricks: Bricks, entries: FloatArray) -> sp.csr_array:

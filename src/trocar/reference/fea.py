@@ -18,13 +18,17 @@ from trocar.model import FloatArray, Load, Press, Support
 from trocar.reference.block import MeshSize, quarter_mesh
 from trocar.reference.forces import nodal_forces
 from trocar.reference.mesh import Bricks
-from trocar.reference.parity import QUARTERS, Parity, fold, mirror_signs
+from trocar.reference.parity import QUARTERS, Parity, fold, mirror_signs, quarter_fields
 from trocar.reference.quarter import QuarterSystem
 from trocar.reference.solver import choose_solver
 from trocar.reference.state import FEAState
+from trocar.reference.stress import largest_compression, largest_von_mises
 from trocar.tissues import Tissue
 
-_CACHED_PRESSES = 64  # unit responses kept; each is a few arrays the size of the mesh
+_CACHED_RESPONSES = 16  # responses kept; each is a few arrays the size of the mesh
+_POINTS_PER_ELEMENT = (
+    6  # along an edge, where the largest deflection is looked for: it is missed by 2e-4 at most
+)
 _DEFAULT_RADIUS = 1 / 15  # of the shorter side: 4 mm on a 60 mm block
 
 
@@ -62,8 +66,8 @@ class FEASolid:
         self._around = around or (Press(x=a / 2, y=b / 2, radius=_DEFAULT_RADIUS * min(a, b), force=1.0),)
         bricks = quarter_mesh(tissue, self._size, self._around, mesh or MeshSize())
         self._system = QuarterSystem(bricks, tissue, self._support, self.solver_name)
-        self._parities = {p for press in self._around for p in self._forces((press.with_force(1.0),))}
-        self._unit: dict[Press, dict[Parity, FloatArray]] = {}
+        self._parities = set(self._forces(tuple(press.with_force(1.0) for press in self._around)))
+        self._responses: dict[Load, dict[Parity, FloatArray]] = {}
 
     @property
     def tissue(self) -> Tissue:
@@ -97,17 +101,18 @@ class FEASolid:
     def static(self, load: Load) -> FEAState:
         """Return the equilibrium under a constant load, at time 0.
 
-        The response to a unit force on every footprint is kept, so a history of forces costs one solve in all.
+        The response to a load is kept, so a history of one load growing and falling costs one solve.
 
         Raises:
             InputError: a footprint is not wholly on the block.
             SolverError: the equations could not be solved accurately.
         """
-        total: dict[Parity, FloatArray] = {}
-        for press in load:
-            for parity, unit in self._unit_response(press.with_force(1.0)).items():
-                total[parity] = total.get(parity, 0.0) + press.force * unit
-        return FEAState(time=0.0, displacement=total, velocity={})
+        largest = max((abs(press.force) for press in load), default=0.0)
+        if largest == 0.0:
+            return self.init()
+        response = self._response(tuple(press.with_force(press.force / largest) for press in load))
+        parts = {parity: largest * part for parity, part in response.items()}
+        return FEAState(time=0.0, displacement=parts, velocity={})
 
     def step(self, state: FEAState, load0: Load, load1: Load, dt: float) -> FEAState:
         """Advance by dt [s] under a load going linearly from load0 to load1, with Newmark's average acceleration.
@@ -180,18 +185,62 @@ class FEASolid:
             total += mirror_signs(parity, every_quarter).sum(axis=1) * nodal.sum(axis=1)
         return total
 
-    def _unit_response(self, press: Press) -> dict[Parity, FloatArray]:
-        if press not in self._unit:
-            forces = self._forces((press,))
+    def stress(self, state: FEAState, *, prestress: bool = True) -> dict[str, float]:
+        """Return the largest von Mises stress [Pa] of each layer, at the Gauss points.
+
+        Args:
+            state: of this model.
+            prestress: whether the layers' prestress is part of it, as it is of what tears them.
+        """
+        values = largest_von_mises(
+            self.bricks, self._tissue.layers, self._quarters(state), prestress=prestress
+        )
+        return dict(zip(self._tissue.layer_names, values, strict=True))
+
+    def strength_ratio(self, state: FEAState) -> dict[str, float]:
+        """Return the largest von Mises stress of each layer over its tensile strength [1]; above 1 it tears."""
+        stress = self.stress(state)
+        return {layer.name: stress[layer.name] / layer.tensile_strength for layer in self._tissue.layers}
+
+    def compression(self, state: FEAState) -> dict[str, float]:
+        """Return the largest share of its thickness that each layer loses anywhere [1]; above 1 is impossible."""
+        values = largest_compression(self.bricks, self._tissue.layers, self._quarters(state))
+        return dict(zip(self._tissue.layer_names, values, strict=True))
+
+    def largest_deflection(self, state: FEAState) -> dict[str, float]:
+        """Return the largest deflection [m] of each layer's upper face, over the block; 0 where nothing goes down."""
+        fine_x, fine_y = (_subdivided(lines) for lines in (self.bricks.x, self.bricks.y))
+        points = np.stack(np.meshgrid(fine_x, fine_y, indexing="ij"), axis=-1).reshape(-1, 2)
+        quarters = self._quarters(state)
+        largest = {}
+        for number, name in enumerate(self._tissue.layer_names):
+            nodes, weights = self.bricks.interpolation(points, self.bricks.upper_face(number))
+            largest[name] = max(
+                0.0, *(-float((field[2, nodes] * weights).sum(axis=0).min()) for field in quarters)
+            )
+        return largest
+
+    def _quarters(self, state: FEAState) -> list[FloatArray]:
+        return quarter_fields(state.displacement, self.bricks.nodes.shape)
+
+    def _response(self, load: Load) -> dict[Parity, FloatArray]:
+        if load not in self._responses:
+            forces = self._forces(load)
             response = {parity: self._system.equilibrium(parity, force) for parity, force in forces.items()}
             self._parities |= set(response)
-            if len(self._unit) >= _CACHED_PRESSES:
-                self._unit.pop(next(iter(self._unit)))
-            self._unit[press] = response
-        return self._unit[press]
+            if len(self._responses) >= _CACHED_RESPONSES:
+                self._responses.pop(next(iter(self._responses)))
+            self._responses[load] = response
+        return self._responses[load]
 
     def _forces(self, load: Load) -> dict[Parity, FloatArray]:
         return nodal_forces(self.bricks, self._size, load)
+
+
+def _subdivided(lines: FloatArray) -> FloatArray:
+    """Put points between grid lines, so that the largest deflection between two nodes is not missed."""
+    part = np.arange(_POINTS_PER_ELEMENT) / _POINTS_PER_ELEMENT
+    return np.append((lines[:-1, None] + part * np.diff(lines)[:, None]).ravel(), lines[-1])
 
 
 def _checked_size(size: tuple[float, float]) -> tuple[float, float]:

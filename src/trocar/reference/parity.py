@@ -12,6 +12,7 @@ one, with the part's sign for every mirror used.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -84,3 +85,17 @@ def held_on_mirrors(bricks: Bricks, parity: Parity) -> np.ndarray[tuple[int, ...
             if (component == axis) == (sign == 1):
                 held[component] |= plane
     return held
+
+
+def quarter_fields(parts: Mapping[Parity, FloatArray], shape: tuple[int, ...]) -> list[FloatArray]:
+    """Add up the parts in each of the four quarters, mirrored into the first; equal quarters are given once.
+
+    Args:
+        parts: displacements [m] of shape (3, nodes) for every parity that is not zero.
+        shape: (3, nodes), for when there is none.
+    """
+    quarters = QUARTERS if set(parts) - {Parity(1, 1)} else QUARTERS[:1]
+    return [
+        sum((parity.x**in_x * parity.y**in_y * part for parity, part in parts.items()), np.zeros(shape))
+        for in_x, in_y in quarters
+    ]

@@ -1,0 +1,71 @@
+"""What the tissue bears: von Mises stress, and the nominal strain through each layer."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+
+from trocar.model import FloatArray
+from trocar.reference.mesh import REDUCED_ORDER, Bricks, shape_functions
+from trocar.tissues import Layer
+
+
+def largest_von_mises(
+    bricks: Bricks, layers: tuple[Layer, ...], fields: list[FloatArray], *, prestress: bool
+) -> list[float]:
+    """Return the largest von Mises stress of each layer [Pa].
+
+    It is taken at the 2 x 2 x 2 Gauss points of the elements, where stresses of this element are most accurate
+    (Barlow 1976, Int. J. Numer. Methods Eng. 10:243). It is not extrapolated to the faces; the peak under the rim of a
+    flat tool, where the linear stress has no bound, grows as the mesh is refined.
+
+    Args:
+        bricks: the mesh.
+        layers: top first.
+        fields: displacements of the nodes [m], each of shape (3, nodes); the largest over all of them is returned.
+        prestress: whether the layers' prestress is part of the stress.
+    """
+    gradients = shape_functions(bricks.gauss_rule(REDUCED_ORDER)[0])[1]
+    largest = [0.0] * len(layers)
+    for field in fields:
+        for number, layer in enumerate(layers):
+            here = bricks.element_layer == number
+            local = np.einsum(
+                "iae,akq->ikeq", field[:, bricks.element_nodes[:, here]], gradients, optimize=True
+            )
+            strain = local / bricks.edges[None, :, here, None]
+            strain = 0.5 * (strain + strain.transpose(1, 0, 2, 3))
+            stress = 2.0 * layer.shear_modulus * strain
+            dilatation = np.einsum("iieq->eq", strain)
+            for axis, tension in enumerate((layer.prestress_x, layer.prestress_y, 0.0)):
+                stress[axis, axis] += layer.lame_lambda * dilatation + (tension if prestress else 0.0)
+            deviator = stress - np.einsum("iieq->eq", stress) / 3.0 * np.eye(3)[:, :, None, None]
+            peak = float(np.einsum("ikeq,ikeq->eq", deviator, deviator).max())
+            largest[number] = max(largest[number], sqrt(1.5 * peak))
+    return largest
+
+
+def largest_compression(bricks: Bricks, layers: tuple[Layer, ...], fields: list[FloatArray]) -> list[float]:
+    """Return the largest share of its thickness that each layer loses anywhere [1]: over 1, it is pushed through.
+
+    It is the approach of the layer's two faces along z at the nodes of the mesh, over the thickness.
+
+    Args:
+        bricks: the mesh.
+        layers: top first.
+        fields: displacements of the nodes [m], each of shape (3, nodes).
+    """
+    largest = []
+    for number, layer in enumerate(layers):
+        slabs = np.flatnonzero(bricks.slab_layer == number)
+        lower, upper = (_face_nodes(bricks, line) for line in (slabs[0], slabs[-1] + 1))
+        approach = max(float((field[2, lower] - field[2, upper]).max()) for field in fields)
+        largest.append(max(0.0, approach / layer.thickness))
+    return largest
+
+
+def _face_nodes(bricks: Bricks, line: int) -> np.ndarray[tuple[int, ...], np.dtype[np.int64]]:
+    x, y, z = bricks.nodes
+    nodes = np.flatnonzero(np.abs(z - bricks.z[line]) < 1e-6 * np.diff(bricks.z).min())
+    return nodes[np.lexsort((y[nodes], x[nodes]))]
