@@ -16,6 +16,7 @@ Unknowns run from the base up, so that the tool's force is the last of them.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -158,6 +159,7 @@ def _assemble(tissue: Tissue, element, components: int, *, base_held: bool, refi
     )
 
 
+@cache
 def _shapes(points: int) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return weights, values and slopes of the quadratic element on [0, 1] at Gauss points, shapes (q,), (q, 3)."""
     nodes, weights = np.polynomial.legendre.leggauss(points)
