@@ -26,12 +26,14 @@ class Oscillators:
         inputs: B, shape (J, r, 2, n).
         outputs: R, shape (J, k, r, 2).
         entry: from amplitudes and their rates to x, shape (J, r, 2, 2r).
+        holds: the x that a constant unit input holds in place, shape (J, r, 2, n).
     """
 
     matrices: FloatArray
     inputs: FloatArray
     outputs: FloatArray
     entry: FloatArray
+    holds: FloatArray
     _propagators: dict[float, Propagator] = field(default_factory=dict, compare=False, repr=False)
 
     @classmethod
@@ -56,6 +58,8 @@ class Oscillators:
             inputs=np.einsum("jsia,jan->jsin", blocks.entry[..., order:], accelerations),
             outputs=np.einsum("jka,jasi->jksi", reading, blocks.exit),
             entry=blocks.entry,
+            # From the stiffness, not from A: a slow pole beside a very fast one is lost in A's rounding.
+            holds=np.einsum("jsia,jan->jsin", blocks.entry[..., :order], np.linalg.solve(stiffness, forcing)),
         )
 
     def gathered(self, groups: np.ndarray) -> Oscillators:
@@ -65,6 +69,7 @@ class Oscillators:
             inputs=self.inputs[groups],
             outputs=self.outputs[groups],
             entry=self.entry[groups],
+            holds=self.holds[groups],
         )
 
     @property
@@ -89,8 +94,7 @@ class Oscillators:
 
     def equilibrium(self, force: FloatArray) -> FloatArray:
         """Return the state that constant inputs, shape (J, n), hold in place."""
-        drive = np.einsum("jsin,jn->jsi", self.inputs, force)
-        result: FloatArray = -np.linalg.solve(self.matrices, drive[..., None])[..., 0]
+        result: FloatArray = np.einsum("jsin,jn->jsi", self.holds, force)
         return result
 
     def read(self, state: FloatArray) -> FloatArray:

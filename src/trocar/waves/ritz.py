@@ -39,6 +39,7 @@ def ritz_oscillators(layers: ThinLayers, at: Wavenumbers, order: int) -> Oscilla
         inputs=np.concatenate([piece.inputs for piece in pieces]),
         outputs=np.concatenate([piece.outputs for piece in pieces]),
         entry=np.concatenate([piece.entry for piece in pieces]),
+        holds=np.concatenate([piece.holds for piece in pieces]),
     )
 
 
