@@ -38,7 +38,7 @@ def lag_one_autocorrelation(values: npt.ArrayLike) -> float:
 def effective_sample_size(values: npt.ArrayLike) -> float:
     """Return how many independent samples a series is worth for its mean, n (1 - r)/(1 + r), 1 to n.
 
-    r is the lag-one autocorrelation. Exact for a first-order autoregressive series, an order of magnitude for a
+    r is the lag-one autocorrelation. Exact for a first-order autoregressive series, a rough guide for a
     deterministic curve. It shows that 81 points along one curve are not 81 experiments.
 
     Raises:
