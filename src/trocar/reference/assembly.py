@@ -1,16 +1,16 @@
 """Stiffness, prestress stiffness, damping and mass of bricks.
 
-With R[k, l] = integral of dN_a/dxi_k dN_b/dxi_l over the reference brick and edges h, the integral over an element is
-G_kl = R[k, l] V / (h_k h_l), V = h_x h_y h_z. In these
+With R[k, l] = integral of dN_a/dxi_k dN_b/dxi_l over the reference brick and edges h, the integral over an
+element is G_kl = R[k, l] V / (h_k h_l), V = h_x h_y h_z. In these
 
     K_ij = lambda G_ij + mu G_ji + delta_ij sum over k of (mu + sigma_k) G_kk
 
-(Hughes 1987, The Finite Element Method, sec. 2.7; for the prestress sigma_k, Zienkiewicz and Taylor 2000, vol. 2, the
-initial-stress matrix of small displacements upon a stressed state). Only the lambda term uses the reduced 2 x 2 x 2
-rule, all others the exact 3 x 3 x 3 one: selective reduced integration (Malkus and Hughes 1978, Comput. Methods Appl.
-Mech. Eng. 15:63). Reducing both, as is common, leaves the element modes without energy; under a flat tool they
-wrinkle a thin top layer by 0.2 % of its deflection, in the pattern of the mesh, however fine. Reducing neither locks:
-0.6 % too stiff at Poisson's ratio 0.48 on the default mesh.
+(Hughes 1987, The Finite Element Method, sec. 2.7; for the prestress sigma_k, Zienkiewicz and Taylor 2000,
+vol. 2, the initial-stress matrix of small displacements upon a stressed state). Only the lambda term uses the
+reduced 2 x 2 x 2 rule, all others the exact 3 x 3 x 3 one: selective reduced integration (Malkus and Hughes
+1978, Comput. Methods Appl. Mech. Eng. 15:63). Reducing both, as is common, leaves the element modes without
+energy; under a flat tool they wrinkle a thin top layer by 0.2 % of its deflection, in the pattern of the
+mesh, however fine. Reducing neither locks: 0.6 % too stiff at Poisson's ratio 0.48 on the default mesh.
 """
 
 from __future__ import annotations

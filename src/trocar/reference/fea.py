@@ -2,13 +2,14 @@
 
     M u'' + C u' + K u = f(t),    C = sum over layers of tau K_layer
 
-on 20-node bricks with reduced integration, a quarter of the block at a time (`parity`). Small displacements and
-strains, isotropic layers perfectly bonded, in-plane prestress as geometric stiffness, dead traction. It shares no code
-with the wave models it judges.
+on 20-node bricks with selective reduced integration (`assembly`), a quarter of the block at a time
+(`parity`). Small displacements and strains, isotropic layers perfectly bonded, in-plane prestress as
+geometric stiffness, dead traction. It shares no code with the wave models it judges.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite
 
 import numpy as np
@@ -39,10 +40,11 @@ class FEASolid:
         tissue: the layers.
         size: sides a, b of the block [m].
         support: how the block is held, or its name.
-        around: presses the mesh is made for: their footprints are finely meshed, their forces do not matter. Loads
-            elsewhere are correct but coarse. None: a 1/15 of the shorter side in the middle.
+        around: presses the mesh is made for: their footprints are finely meshed, their forces do not matter.
+            Loads elsewhere are correct but coarse. None: a 1/15 of the shorter side in the middle.
         mesh: how finely.
-        solver: "superlu", "pardiso" (Intel MKL, from the extra `trocar[pardiso]`) or "auto", the fastest installed.
+        solver: "superlu", "pardiso" (Intel MKL, from the extra `trocar[pardiso]`) or "auto", the fastest
+            installed.
 
     Raises:
         InputError: an argument is not possible.
@@ -91,7 +93,7 @@ class FEASolid:
 
     @property
     def dofs(self) -> int:
-        """Unknowns solved for: of the quarter, added over the parities in use by `around` and by loads so far."""
+        """Unknowns of the quarter, added over the parities used by `around` and by the loads so far."""
         return sum(len(self._system.free(parity)) for parity in self._parities)
 
     def init(self) -> FEAState:
@@ -115,9 +117,10 @@ class FEASolid:
         return FEAState(time=0.0, displacement=parts, velocity={})
 
     def step(self, state: FEAState, load0: Load, load1: Load, dt: float) -> FEAState:
-        """Advance by dt [s] under a load going linearly from load0 to load1, with Newmark's average acceleration.
+        """Advance by dt [s] under a load going linearly from load0 to load1.
 
-        The factorisation is kept for each dt.
+        Newmark's average acceleration: second order, stable for every dt, no numerical damping. The
+        factorisation is kept for each dt.
 
         Raises:
             InputError: dt is not above 0, the loads hold unequally many presses, or one is off the block.
@@ -168,8 +171,8 @@ class FEASolid:
 
         Args:
             state: of this model; of a moving one, the inertia of the held nodes is left out.
-            load: the load at that time; it matters only where a footprint reaches into an element at a held side,
-                whose nodes then carry some of it straight to the support.
+            load: the load at that time; it matters only where a footprint reaches into an element at a held
+                side, whose nodes then carry some of it straight to the support.
         """
         system, forces, total = self._system, self._forces(load), np.zeros(3)
         every_quarter = np.array(QUARTERS)
@@ -198,17 +201,17 @@ class FEASolid:
         return dict(zip(self._tissue.layer_names, values, strict=True))
 
     def strength_ratio(self, state: FEAState) -> dict[str, float]:
-        """Return the largest von Mises stress of each layer over its tensile strength [1]; above 1 it tears."""
+        """Return the largest von Mises stress of each layer over its tensile strength [1]; torn above 1."""
         stress = self.stress(state)
         return {layer.name: stress[layer.name] / layer.tensile_strength for layer in self._tissue.layers}
 
     def compression(self, state: FEAState) -> dict[str, float]:
-        """Return the largest share of its thickness that each layer loses anywhere [1]; above 1 is impossible."""
+        """Return the largest share of its thickness that each layer loses anywhere [1]; 1 at most is real."""
         values = largest_compression(self.bricks, self._tissue.layers, self._quarters(state))
         return dict(zip(self._tissue.layer_names, values, strict=True))
 
     def largest_deflection(self, state: FEAState) -> dict[str, float]:
-        """Return the largest deflection [m] of each layer's upper face, over the block; 0 where nothing goes down."""
+        """Return the largest deflection [m] of each layer's upper face, over the block; at least 0."""
         fine_x, fine_y = (_subdivided(lines) for lines in (self.bricks.x, self.bricks.y))
         points = np.stack(np.meshgrid(fine_x, fine_y, indexing="ij"), axis=-1).reshape(-1, 2)
         quarters = self._quarters(state)
@@ -243,7 +246,7 @@ def _subdivided(lines: FloatArray) -> FloatArray:
     return np.append((lines[:-1, None] + part * np.diff(lines)[:, None]).ravel(), lines[-1])
 
 
-def _checked_size(size: tuple[float, float]) -> tuple[float, float]:
+def _checked_size(size: Sequence[float]) -> tuple[float, float]:
     if len(size) != 2 or not all(isfinite(side) and side > 0 for side in size):
         raise InputError("size", "two finite sides above 0 [m]", size)
     return float(size[0]), float(size[1])

@@ -1,13 +1,14 @@
 """The nodal forces of a press: quadrature over its footprint, whatever elements the ellipse cuts.
 
-A press spreads its force with a density p(rho), rho from 0 at the centre to 1 at the rim of an ellipse with semi-axes
-A (along the azimuth) and B. With t = sqrt(1 - rho^2) the area element is A B t dt dtheta, smooth for the Hertz profile
-p = t as well as for the flat one p = 1. Gauss-Legendre in t and even angles turn the footprint into weighted points;
-the consistent nodal forces are the shape functions at these points times the weights. The weights add up to 1 and the
-shape functions to 1 in every point, so the nodal forces add up to the press's force whatever the number of points.
+A press spreads its force with a density p(rho), rho from 0 at the centre to 1 at the rim of an ellipse with
+semi-axes A (along the azimuth) and B. With t = sqrt(1 - rho^2) the area element is A B t dt dtheta, smooth
+for the Hertz profile p = t as well as for the flat one p = 1. Gauss-Legendre in t and even angles turn the
+footprint into weighted points; the consistent nodal forces are the shape functions at these points times the
+weights. The weights add up to 1 and the shape functions to 1 in every point, so the nodal forces add up to
+the press's force whatever the number of points.
 
-A Gaussian profile exp(-2 rho^2) has no rim; it is cut off at three radii (six standard deviations, density 1.5e-8 of
-the centre's), and what falls off the block is spread over the rest.
+A Gaussian profile exp(-2 rho^2) has no rim; it is cut off at three radii (six standard deviations, density
+1.5e-8 of the centre's), and what falls off the block is spread over the rest.
 """
 
 from __future__ import annotations
@@ -61,14 +62,11 @@ def footprint_points(press: Press, size: tuple[float, float]) -> tuple[FloatArra
     nodes, gauss = np.polynomial.legendre.leggauss(RADIAL_POINTS)
     t, weight = 0.5 * (nodes + 1.0), 0.5 * gauss
     rho = np.sqrt(1.0 - t**2)
-    match press.profile:
-        case Profile.FLAT:
-            density = np.ones_like(t)
-        case Profile.SPHERE:
-            density = t
-        case Profile.GAUSSIAN:
-            rho = _GAUSSIAN_RIM * rho
-            density = np.exp(-2.0 * rho**2)
+    if press.profile is Profile.GAUSSIAN:
+        rho = _GAUSSIAN_RIM * rho
+        density = np.exp(-2.0 * rho**2)
+    else:
+        density = t if press.profile is Profile.SPHERE else np.ones_like(t)
     theta = 2.0 * pi * (np.arange(ANGULAR_POINTS) + 0.5) / ANGULAR_POINTS
     along, across = press.semi_axes
     p = along * np.outer(rho, np.cos(theta)).ravel()

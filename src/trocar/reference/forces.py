@@ -39,6 +39,7 @@ def nodal_forces(bricks: Bricks, size: tuple[float, float], load: Load) -> dict[
             spread = np.bincount(
                 nodes[:, here].ravel(), (weights * share)[:, here].ravel(), minlength=bricks.nodes.shape[1]
             )
-            for parity, force in forces.items():
-                force += np.outer(0.25 * mirror_signs(parity, np.array([quarter]))[:, 0] * vector, spread)
+            for parity in PARITIES:
+                signs = mirror_signs(parity, np.array([quarter]))[:, 0]
+                forces[parity] += np.outer(0.25 * signs * vector, spread)
     return {parity: force for parity, force in forces.items() if np.abs(force).sum() > _NEGLIGIBLE * scale}

@@ -1,12 +1,12 @@
 """The mesh: graded tensor-product lines over a quarter of the block, and the 20-node hexahedra on them.
 
-Lines come from a wished element size h(x). They are the images of evenly spaced values of s(x) = integral of dx/h,
-so that h changes smoothly and halving the spacing in s splits every element: refined meshes are nested, which is what
-Richardson extrapolation asks for.
+Lines come from a wished element size h(x). They are the images of evenly spaced values of s(x) = integral of
+dx/h, so that h changes smoothly and halving the spacing in s splits every element: refined meshes are nested,
+which is what Richardson extrapolation asks for.
 
-Every element is an axis-parallel brick, its local axes along x, y, z: its Jacobian is diagonal and constant, so no
-mapping has to be evaluated anywhere. Nodes, shape functions and quadrature are scikit-fem's (`ElementHexS2`, the
-20-node serendipity hexahedron).
+Every element is an axis-parallel brick, its local axes along x, y, z: its Jacobian is diagonal and constant,
+so no mapping has to be evaluated anywhere. Nodes, shape functions and quadrature are scikit-fem's
+(`ElementHexS2`, the 20-node serendipity hexahedron).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
-from skfem import Basis, ElementHexS2, MeshHex  # type: ignore[import-untyped]
+from skfem import Basis, ElementHexS2, MeshHex
 
 from trocar.model import FloatArray
 
@@ -35,7 +35,8 @@ def graded_lines(start: float, stop: float, spacing: Spacing, refinement: int = 
     """Return grid lines from start to stop, about `spacing` apart.
 
     Args:
-        start, stop: ends of the line [m].
+        start: lower end [m].
+        stop: upper end [m].
         spacing: the wished element size [m] at places [m], array in, array out; above 0.
         refinement: how many times every interval is split in two.
 
@@ -56,8 +57,8 @@ def graded_lines(start: float, stop: float, spacing: Spacing, refinement: int = 
 class Bricks:
     """20-node bricks between grid lines.
 
-    Elements are numbered with z fastest, then y, then x. The 3 components of a node's vector are stored as the 3 rows
-    of an array of shape (3, nodes); flattened, component i of node n is unknown i * nodes + n.
+    Elements are numbered with z fastest, then y, then x. The 3 components of a node's vector are stored as
+    the 3 rows of an array of shape (3, nodes); flattened, component i of node n is unknown i * nodes + n.
 
     Args:
         x, y, z: grid lines [m], ascending.
@@ -111,7 +112,7 @@ class Bricks:
         return np.tile(self.slab_layer, nx * ny)
 
     def gauss_rule(self, order: int) -> tuple[FloatArray, FloatArray]:
-        """Return the local points, shape (3, q), and weights, shape (q,), exact for polynomials up to `order`."""
+        """Return the local points, shape (3, q), and weights, shape (q,), of a rule exact up to `order`."""
         rule = Basis(self.basis.mesh, self.basis.elem, intorder=order, elements=np.array([0]))
         return np.asarray(rule.X, dtype=np.float64), np.asarray(rule.W, dtype=np.float64)
 

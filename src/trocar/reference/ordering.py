@@ -1,7 +1,8 @@
-"""A fill-reducing order of the unknowns: nested dissection of the grid (George 1973, SIAM J. Numer. Anal. 10:345).
+"""A fill-reducing order of the unknowns: nested dissection of the grid.
 
-A block of elements is cut in two by the grid plane that halves its longest direction; the nodes of the plane are
-eliminated after those on either side, and each side is cut again.
+A block of elements is cut in two by the grid plane that halves its longest direction; the nodes of the plane
+are eliminated after those on either side, and each side is cut again (George 1973, SIAM J. Numer. Anal.
+10:345).
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ def dissection_order(bricks: Bricks) -> IntArray:
     order: list[IntArray] = []
 
     def cut(nodes: IntArray, low: tuple[int, ...], high: tuple[int, ...]) -> None:
-        extent = [h - l for l, h in zip(low, high, strict=True)]
+        extent = [last - first for first, last in zip(low, high, strict=True)]
         axis = int(np.argmax(extent))
         if extent[axis] <= _LEAF:
             order.append(nodes)

@@ -1,13 +1,13 @@
 """Mirror symmetry: any load on the block as four loads on a quarter of it.
 
-The block, its layers and its supports are their own mirror images in the planes x = a/2 and y = b/2. A vector field
-is mirrored in x by u_x(x) -> -u_x(a - x), u_y(x) -> u_y(a - x), u_z(x) -> u_z(a - x), in y likewise. Every field is
-the sum of four parts, each even (+1) or odd (-1) under each mirror, and the elastic problem does not mix them. Each
-part is known from the quarter 0 <= x <= a/2, 0 <= y <= b/2, where its mirror planes are boundaries: an even part has
-no displacement normal to the plane, an odd one none tangential to it.
+The block, its layers and its supports are their own mirror images in the planes x = a/2 and y = b/2. A vector
+field is mirrored in x by u_x(x) -> -u_x(a - x), u_y(x) -> u_y(a - x), u_z(x) -> u_z(a - x), in y likewise.
+Every field is the sum of four parts, each even (+1) or odd (-1) under each mirror, and the elastic problem
+does not mix them. Each part is known from the quarter 0 <= x <= a/2, 0 <= y <= b/2, where its mirror planes
+are boundaries: an even part has no displacement normal to the plane, an odd one none tangential to it.
 
-The quarter's nodal forces of a part are 1/4 of the sum, over the four quarters, of the load mirrored into the first
-one, with the part's sign for every mirror used.
+The quarter's nodal forces of a part are 1/4 of the sum, over the four quarters, of the load mirrored into the
+first one, with the part's sign for every mirror used.
 """
 
 from __future__ import annotations

@@ -78,16 +78,18 @@ class QuarterSystem:
         mean_force: FloatArray,
         dt: float,
     ) -> tuple[FloatArray, FloatArray]:
-        """Advance by dt [s] with Newmark's average acceleration, written for displacement and velocity alone:
+        """Advance by dt [s] with Newmark's average acceleration, in displacement and velocity alone.
 
-            u1 - u0 = dt (v0 + v1) / 2,    M (v1 - v0) + dt C (v0 + v1) / 2 + dt K (u0 + u1) / 2 = dt (f0 + f1) / 2.
+            u1 - u0 = dt (v0 + v1) / 2
+            M (v1 - v0) + dt C (v0 + v1) / 2 + dt K (u0 + u1) / 2 = dt (f0 + f1) / 2
 
-        Second order, stable for every dt, and without damping it keeps v M v / 2 + u K u / 2 (Newmark 1959; Hughes
-        1987, sec. 9.1). No acceleration is stored, so a load may jump between two steps.
+        Second order, stable for every dt, and without damping it keeps v M v / 2 + u K u / 2 (Newmark 1959;
+        Hughes 1987, sec. 9.1). No acceleration is stored, so a load may jump between two steps.
 
         Args:
             parity: of the part.
-            displacement, velocity: at the start [m], [m/s], shape (3, nodes).
+            displacement: at the start [m], shape (3, nodes).
+            velocity: at the start [m/s], shape (3, nodes).
             mean_force: mean of the nodal forces at start and end [N], shape (3, nodes).
             dt: [s].
 

@@ -1,8 +1,8 @@
 """The linear solver seam: one factorisation, many right-hand sides, every residual checked.
 
-`superlu` is SciPy's sparse LU, here given an already dissected order so that it keeps it. `pardiso` is the sparse
-Cholesky of Intel's MKL through pypardiso, several times faster on large meshes; MKL is proprietary and comes only with
-the extra `trocar[pardiso]`.
+`superlu` is SciPy's sparse LU, here given an already dissected order so that it keeps it. `pardiso` is the
+sparse Cholesky of Intel's MKL through pypardiso, several times faster on large meshes; MKL is proprietary and
+comes only with the extra `trocar[pardiso]`.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from trocar.model import FloatArray
 
 Solve = Callable[[FloatArray], FloatArray]
 
-_REFINEMENTS = 3  # corrections with the residual; one is usual
-_TARGET = 1e-12  # residual over right-hand side at which no more corrections are made
-_ACCEPTED = 1e-7  # the largest returned: a residual is a load out of balance, and 1e-7 of the load moves tissue as little
+_CORRECTIONS = 3  # with the residual, at most; none is usual
+_TARGET = 1e-9  # residual over right-hand side at which no more are made: reactions are then right to 1e-8
+_ACCEPTED = 1e-7  # the largest returned: a residual is a load out of balance, and 1e-7 of it moves as little
 
 
 def choose_solver(name: str) -> str:
@@ -77,12 +77,12 @@ class Factorisation:
         if size == 0:
             return np.zeros_like(right)
         solution = self._solve(right)
-        for correction in range(_REFINEMENTS + 1):
+        for _ in range(_CORRECTIONS):
             residual = right - self._matrix @ solution
-            error = np.linalg.norm(residual) / size
-            if not error > _TARGET or correction == _REFINEMENTS:
-                break
+            if np.linalg.norm(residual) <= _TARGET * size:
+                return solution
             solution = solution + self._solve(residual)
+        error = np.linalg.norm(right - self._matrix @ solution) / size
         if not error <= _ACCEPTED:
             raise SolverError(
                 f"expected a residual below {_ACCEPTED:g} of the load, got {error:.2g}; "

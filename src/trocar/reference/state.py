@@ -1,4 +1,4 @@
-"""What the finite elements remember: displacement and velocity of the quarter's nodes, one pair for every parity."""
+"""What the finite elements remember: displacement and velocity of the quarter's nodes, by parity."""
 
 from __future__ import annotations
 

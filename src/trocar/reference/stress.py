@@ -16,14 +16,15 @@ def largest_von_mises(
 ) -> list[float]:
     """Return the largest von Mises stress of each layer [Pa].
 
-    It is taken at the 2 x 2 x 2 Gauss points of the elements, where stresses of this element are most accurate
-    (Barlow 1976, Int. J. Numer. Methods Eng. 10:243). It is not extrapolated to the faces; the peak under the rim of a
-    flat tool, where the linear stress has no bound, grows as the mesh is refined.
+    It is taken at the 2 x 2 x 2 Gauss points of the elements, where stresses of this element are most
+    accurate (Barlow 1976, Int. J. Numer. Methods Eng. 10:243). It is not extrapolated to the faces; the peak
+    under the rim of a flat tool, where the linear stress has no bound, grows as the mesh is refined.
 
     Args:
         bricks: the mesh.
         layers: top first.
-        fields: displacements of the nodes [m], each of shape (3, nodes); the largest over all of them is returned.
+        fields: displacements of the nodes [m], each of shape (3, nodes); the largest over all of them is
+            returned.
         prestress: whether the layers' prestress is part of the stress.
     """
     gradients = shape_functions(bricks.gauss_rule(REDUCED_ORDER)[0])[1]
@@ -47,7 +48,7 @@ def largest_von_mises(
 
 
 def largest_compression(bricks: Bricks, layers: tuple[Layer, ...], fields: list[FloatArray]) -> list[float]:
-    """Return the largest share of its thickness that each layer loses anywhere [1]: over 1, it is pushed through.
+    """Return the largest share of its thickness that each layer loses anywhere [1].
 
     It is the approach of the layer's two faces along z at the nodes of the mesh, over the thickness.
 
