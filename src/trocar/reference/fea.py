@@ -77,6 +77,11 @@ class FEASolid:
         return self._tissue
 
     @property
+    def layer_names(self) -> tuple[str, ...]:
+        """Names of the layers, top first."""
+        return self._tissue.layer_names
+
+    @property
     def size(self) -> tuple[float, float]:
         """Sides a, b of the block along x and y [m]."""
         return self._size

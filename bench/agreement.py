@@ -1,0 +1,43 @@
+"""Print how far the wave models agree with finite elements, support by support.
+
+    python bench/agreement.py base            all nine places (three and their mirror images), about half an hour
+    python bench/agreement.py edges+base --central
+    python bench/agreement.py edges --central
+"""
+
+import argparse
+import sys
+
+import numpy as np
+
+from trocar.model import Support
+from trocar.study.sweep_of_agreement import PLACES, agreements
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("support", choices=[kind.value for kind in Support])
+    parser.add_argument("--central", action="store_true", help="only a tool in the middle")
+    choice = parser.parse_args()
+    print("fat mm | E epidermis, dermis, fat kPa | place | d mm | FEA mm | WaveSolid - FEA, % | WaveMembrane - FEA, %")
+    rows = []
+    for row in agreements(Support(choice.support), places=PLACES[:1] if choice.central else PLACES):
+        rows.append(row)
+        print(
+            f"{1e3 * row.fat_thickness:4.0f} | {row.epidermis / 1e3:5.0f} {row.dermis / 1e3:5.0f} {row.fat / 1e3:3.0f}"
+            f" | {row.place[0]:.2f} {row.place[1]:.2f} | {1e3 * row.diameter:.0f} | {1e3 * row.reference[0]:8.4f}"
+            f" | {' '.join(f'{100 * e:+7.3f}' for e in row.solid)}"
+            f" | {' '.join(f'{100 * e:+7.3f}' for e in row.membrane)}",
+            flush=True,
+        )
+    for name in ("solid", "membrane"):
+        errors = np.abs([getattr(row, name) for row in rows])
+        print(
+            f"{name}: {len(rows)} presses, largest {100 * errors.max():.3f} %, "
+            f"median {100 * np.median(errors):.3f} %, layers {np.round(100 * errors.max(axis=0), 3)}"
+        )
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,42 @@
+"""Every tissue model, bound to the contract."""
+
+import pytest
+from contracts.tissue_model import TissueModelContract
+from sample_tissues import three_layers
+
+from trocar.model import Press
+from trocar.reference.block import MeshSize
+from trocar.reference.fea import FEASolid
+from trocar.waves.membrane import WaveMembrane
+from trocar.waves.solid import WaveSolid
+
+SIZE = (0.06, 0.06)
+
+
+class TestWaveMembrane(TissueModelContract):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        return WaveMembrane.fitted(three_layers(), size=SIZE, modes=(24, 24))
+
+
+class TestWaveSolid(TissueModelContract):
+    # Statics come from a banded factorisation, moving modes from dense inverses: condition 1e6 times rounding.
+    rounding = 1e-8
+
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        return WaveSolid(three_layers(), size=SIZE, modes=(32, 32), dynamic_modes=(12, 12))
+
+
+class TestFEASolid(TissueModelContract):
+    # Average acceleration damps nothing by itself, and 50 ms steps leave the fast modes ringing for long.
+    settled = 1e-2
+
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        around = (Press(x=0.026, y=0.031, radius=0.003, force=1.0),)
+        coarse = MeshSize(per_radius=1.0, growth=1.0, top=0.6, deepening=1.0)
+        return FEASolid(three_layers(), size=SIZE, support="base", around=around, mesh=coarse)
