@@ -11,9 +11,9 @@ from tempfile import TemporaryDirectory
 
 from hypothesis import HealthCheck, given, seed, settings
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "study"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
-from broken_cases import BROKEN, outcome  # noqa: E402 - the generator is test code, found by path
+from study.broken_cases import BROKEN, outcome
 
 
 def main() -> int:

@@ -5,8 +5,8 @@ from math import pi
 from pathlib import Path
 
 import pytest
-from broken_cases import EXAMPLES
 
+from study.broken_cases import EXAMPLES
 from trocar.errors import InputError
 from trocar.model import Support
 from trocar.study.case import Case, Sampling, Tool, load_case
@@ -133,9 +133,9 @@ CHANGES = [
      "layer[2].thickness_mm", "too large"),
     ("thickness_mm = 10\n", "", "layer[2].thickness_mm", "got nothing"),
     ("thickness_mm = 10\n", "thicknes_mm = 10\n", "layer[2].thicknes_mm", "did you mean thickness_mm?"),
-    ("young_modulus_kpa = 10\n", "young_modulus_kpa = nan\n", "layer[2].young_modulus_kpa", "got nan"),
-    ("young_modulus_kpa = 10\n", "young_modulus_kpa = inf\n", "layer[2].young_modulus_kpa", "got inf"),
-    ("young_modulus_kpa = 10\n", "young_modulus_kpa = 1e-3\nprestress_kpa = [1e6, 0]\n",
+    ("young_modulus_kpa = 20\n", "young_modulus_kpa = nan\n", "layer[2].young_modulus_kpa", "got nan"),
+    ("young_modulus_kpa = 20\n", "young_modulus_kpa = inf\n", "layer[2].young_modulus_kpa", "got inf"),
+    ("young_modulus_kpa = 20\n", "young_modulus_kpa = 1e-3\nprestress_kpa = [1e6, 0]\n",
      "layer[2].young_modulus_kpa", "precision"),
     ("poisson_ratio = 0.48\n", "poisson_ratio = 0.5\n", "layer[0].poisson_ratio", "below 0.5"),
     ("poisson_ratio = 0.48\n", "poisson_ratio = -0.1\n", "layer[0].poisson_ratio", "got -0.1"),

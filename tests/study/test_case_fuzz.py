@@ -4,8 +4,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
-from broken_cases import BROKEN, VALID, document, outcome
 from hypothesis import example, given, settings
+
+from study.broken_cases import BROKEN, VALID, document, outcome
 
 
 @settings(max_examples=300, derandomize=True, deadline=None, database=None)

@@ -52,7 +52,7 @@ def test_half_a_digit():
 
 
 @pytest.mark.parametrize(
-    ("id", "recomputed", "digits", "verdict"),
+    ("name", "recomputed", "digits", "verdict"),
     [
         # id, our value, relative accuracy of what is written here, verdict
         ("area", 3600, 1e-12, "reproduced"),
@@ -90,17 +90,17 @@ def test_half_a_digit():
         ("reference_7_year", 1994, 1e-12, "inconsistent"),
     ],
 )
-def test_numbers_and_verdicts(id, recomputed, digits, verdict):
-    assert ENTRIES[id].recomputed == pytest.approx(recomputed, rel=digits)
-    assert ENTRIES[id].verdict == verdict
+def test_numbers_and_verdicts(name, recomputed, digits, verdict):
+    assert ENTRIES[name].recomputed == pytest.approx(recomputed, rel=digits)
+    assert ENTRIES[name].verdict == verdict
 
 
 @pytest.mark.parametrize(
-    "id", ["moduli", "damping", "fat_thickness", "peak_shift", "cost_ratio", "t_sign", "fea_mesh"]
+    "name", ["moduli", "damping", "fat_thickness", "peak_shift", "cost_ratio", "t_sign", "fea_mesh"]
 )
-def test_what_is_not_printed_is_not_specified(id):
-    assert ENTRIES[id].verdict is Verdict.NOT_SPECIFIED
-    assert ENTRIES[id].recomputed is None
+def test_what_is_not_printed_is_not_specified(name):
+    assert ENTRIES[name].verdict is Verdict.NOT_SPECIFIED
+    assert ENTRIES[name].recomputed is None
 
 
 def test_every_entry_is_told_once_with_a_reason():
@@ -123,7 +123,7 @@ def test_coefficient_by_quadrature_by_parts_and_by_sums():
 
 
 def test_one_term_holds_a_thirtieth_of_the_tool():
-    # sin sin is about 1 over the disc: the share is 4 pi r^2 / (a b), which curvature lowers by 1 - (k r)^2 / 2
+    # sin sin is about 1 over the disc: the share is 4 pi r^2 / (a b); curvature lowers it by 1 - (k r)^2 / 2
     first_order = 4 * pi * 3**2 / 60**2
     assert disc_share() == pytest.approx(first_order * (1 - (pi * 3 / 60) ** 2 / 2), rel=1e-3)
 

@@ -71,7 +71,8 @@ def nrmse(reference: npt.ArrayLike, model: npt.ArrayLike) -> float:
     """Return the root mean square error over the range (largest minus smallest) of the reference [1].
 
     Args:
-        reference, model: curves in one unit, shape (n,).
+        reference: curve to judge by, shape (n,).
+        model: curve to judge, in the same unit, shape (n,).
 
     Raises:
         InputError: samples are impossible or the reference is constant, so that it has no range.
@@ -96,7 +97,8 @@ def largest_error(reference: npt.ArrayLike, model: npt.ArrayLike) -> tuple[float
     """Return the error of largest magnitude, with its sign, and its index.
 
     Args:
-        reference, model: curves in one unit, shape (n,).
+        reference: curve to judge by, shape (n,).
+        model: curve to judge, in the same unit, shape (n,).
 
     Raises:
         InputError: samples are impossible.
@@ -114,7 +116,8 @@ def peak_shift(
     Args:
         time: of the samples [s], ascending, shape (n,).
         force: applied then [N], shape (n,).
-        reference, model: curves in one unit, shape (n,).
+        reference: curve to judge by, shape (n,).
+        model: curve to judge, in the same unit, shape (n,).
 
     Raises:
         InputError: samples are impossible or time does not ascend.
@@ -150,7 +153,8 @@ def limits_of_agreement(reference: npt.ArrayLike, model: npt.ArrayLike) -> Limit
     with n - 1 degrees of freedom.
 
     Args:
-        reference, model: curves in one unit, shape (n,).
+        reference: curve to judge by, shape (n,).
+        model: curve to judge, in the same unit, shape (n,).
 
     Raises:
         InputError: samples are impossible.
@@ -182,7 +186,8 @@ def concordance(reference: npt.ArrayLike, model: npt.ArrayLike) -> Concordance:
     curves agree perfectly (1); a constant against a varying one does not agree at all (0).
 
     Args:
-        reference, model: curves in one unit, shape (n,), n at least 4 for an interval.
+        reference: curve to judge by, shape (n,), n at least 4 for an interval.
+        model: curve to judge, in the same unit, shape (n,).
 
     Raises:
         InputError: samples are impossible.

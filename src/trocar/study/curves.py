@@ -94,7 +94,8 @@ def compare_curves(
     Args:
         time: of the samples [s], ascending, shape (n,), n at least 3.
         force: applied then [N], shape (n,).
-        reference, model: curves in one unit, shape (n,), such as largest deflections.
+        reference: curve to judge by, such as a largest deflection, shape (n,).
+        model: curve to judge, in the same unit, shape (n,).
         margin: largest mean difference that would not matter, fixed before looking, in that unit.
         alpha: significance level of every test.
         unit: of the curves, recorded.

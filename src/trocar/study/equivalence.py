@@ -58,7 +58,8 @@ def paired_equivalence(
     """Test equivalence of paired samples: d = model - reference, error sd(d)/sqrt(n), n - 1 degrees.
 
     Args:
-        reference, model: samples in one unit, shape (n,).
+        reference: samples to judge by, shape (n,).
+        model: samples to judge, in the same unit, shape (n,).
         margin: above 0, in the same unit.
         alpha: of each one-sided test, between 0 and 0.5.
         effective: how many independent samples they are worth, at most n (`uncertainty` estimates it); None
@@ -86,7 +87,8 @@ def unpaired_equivalence(
     """Test equivalence of two samples with pooled variance, the t-test's counterpart.
 
     Args:
-        reference, model: samples in one unit, shapes (n1,) and (n2,).
+        reference: samples to judge by, shape (n1,).
+        model: samples to judge, in the same unit, shape (n2,).
         margin: above 0, in the same unit.
         alpha: of each one-sided test, between 0 and 0.5.
 

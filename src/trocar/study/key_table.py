@@ -142,7 +142,7 @@ class Table:
         if isinstance(value, str) and value in built:
             return value
         if isinstance(value, str) and unbuilt and value in unbuilt:
-            raise self.refuse(key, f"{expected}, the ones built so far", value, unbuilt[value])
+            raise self.refuse(key, f"{expected} (all that is built so far)", value, unbuilt[value])
         near = get_close_matches(value[:100], built, n=1) if isinstance(value, str) else []
         raise self.refuse(key, expected, value, f'did you mean "{near[0]}"?' if near else "")
 

@@ -101,7 +101,8 @@ def t_test(first: npt.ArrayLike, second: npt.ArrayLike, alpha: float = 0.05) -> 
     t = (m1 - m2) / (s sqrt(1/n1 + 1/n2)), s^2 = ((n1 - 1) s1^2 + (n2 - 1) s2^2) / (n1 + n2 - 2).
 
     Args:
-        first, second: samples in one unit, shapes (n1,) and (n2,).
+        first: samples, shape (n1,).
+        second: samples in the same unit, shape (n2,).
         alpha: significance level, between 0 and 1.
 
     Raises:

@@ -182,7 +182,8 @@ def validation(simulation: float, data: float, *uncertainties: float) -> Validat
     """Compare a simulated number with its reference.
 
     Args:
-        simulation, data: S and D, in one unit.
+        simulation: S.
+        data: D, in the same unit.
         uncertainties: standard uncertainties of both, numerical, input and measured ones alike, same unit.
 
     Raises:

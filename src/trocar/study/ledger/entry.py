@@ -85,30 +85,32 @@ def agrees(printed: str, value: float) -> bool:
     return abs(Decimal(value) - number) <= reach
 
 
-def recomputed_entry(id: str, printed: str, value: float, unit: str, note: str) -> Entry:
+def recomputed_entry(name: str, printed: str, value: float, unit: str, note: str) -> Entry:
     """Return an entry judged by its printed digits.
 
     Args:
-        id: its name.
+        name: its id.
         printed: a decimal number as printed.
         value: our own, in `unit`.
         unit: of both.
         note: why.
     """
     verdict = Verdict.REPRODUCED if agrees(printed, value) else Verdict.INCONSISTENT
-    return Entry(id=id, printed=printed, recomputed=float(value), unit=unit, verdict=verdict, note=note)
+    return Entry(id=name, printed=printed, recomputed=float(value), unit=unit, verdict=verdict, note=note)
 
 
-def unspecified_entry(id: str, unit: str, note: str, value: float | None = None, printed: str = "") -> Entry:
+def unspecified_entry(
+    name: str, unit: str, note: str, value: float | None = None, printed: str = ""
+) -> Entry:
     """Return an entry the text does not say enough about.
 
     Args:
-        id: its name.
+        name: its id.
         unit: of the numbers.
         note: what is missing.
         value: our own where something can be said, in `unit`.
         printed: what the paper says about it.
     """
     return Entry(
-        id=id, printed=printed, recomputed=value, unit=unit, verdict=Verdict.NOT_SPECIFIED, note=note
+        id=name, printed=printed, recomputed=value, unit=unit, verdict=Verdict.NOT_SPECIFIED, note=note
     )

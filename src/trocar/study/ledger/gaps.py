@@ -32,4 +32,4 @@ GAPS: tuple[tuple[str, str, str], ...] = (
 
 def gap_entries() -> tuple[Entry, ...]:
     """Return one entry for each number that is used and not printed."""
-    return tuple(unspecified_entry(id, unit, note) for id, unit, note in GAPS)
+    return tuple(unspecified_entry(name, unit, note) for name, unit, note in GAPS)
