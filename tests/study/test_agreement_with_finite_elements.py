@@ -1,0 +1,90 @@
+"""The claim of the project, on a few presses; `bench/agreement.py` runs the whole sweep."""
+
+import numpy as np
+import pytest
+
+from trocar.model import Press, Support
+from trocar.reference.fea import FEASolid
+from trocar.study.agreement import nrmse
+from trocar.study.half_sine import half_sine
+from trocar.study.sweep_of_agreement import PLACES, SIZE, agreements, largest, skin_like
+from trocar.tissues.catalogue import tissue
+from trocar.waves.membrane import WaveMembrane
+from trocar.waves.solid import WaveSolid
+
+MIDDLE, SIDE, CORNER = PLACES
+
+
+@pytest.mark.parametrize(
+    ("moduli", "fat", "place", "diameter"),
+    [
+        ((1e6, 2e5, 1e4), 10e-3, MIDDLE, 6e-3),
+        ((5e5, 35e3, 2e3), 20e-3, SIDE, 5e-3),
+        ((4e6, 1e6, 2e4), 5e-3, CORNER, 8e-3),
+    ],
+)
+def test_on_a_held_base_the_waves_match_finite_elements(moduli, fat, place, diameter):
+    layers = skin_like(*moduli, fat)
+    press = Press(x=place[0] * SIZE[0], y=place[1] * SIZE[1], radius=diameter / 2, force=0.1)
+    reference = largest(FEASolid(layers, size=SIZE, support="base", around=(press,)), press)
+    assert largest(WaveSolid(layers, size=SIZE), press) == pytest.approx(reference, rel=0.005)
+    membrane = WaveMembrane.fitted(layers, size=SIZE, modes=(96, 96))
+    assert largest(membrane, press) == pytest.approx(reference, rel=0.05)
+
+
+def test_clamped_sides_matter_little_to_a_central_tool_on_thin_fat():
+    layers = skin_like(1e6, 2e5, 1e4, 10e-3)
+    press = Press(x=0.03, y=0.03, radius=0.003, force=0.1)
+    reference = largest(FEASolid(layers, size=SIZE, support="edges+base", around=(press,)), press)
+    assert largest(WaveSolid(layers, size=SIZE, support="edges+base"), press) == pytest.approx(reference, rel=0.01)
+
+
+def test_clamped_sides_are_not_sine_modes():
+    """Held at its sides alone the block is a plate: simply supported it gives way by a quarter more."""
+    layers = skin_like(1e6, 2e5, 1e4, 10e-3)
+    press = Press(x=0.03, y=0.03, radius=0.003, force=0.1)
+    reference = largest(FEASolid(layers, size=SIZE, support="edges", around=(press,)), press)
+    difference = largest(WaveSolid(layers, size=SIZE, support="edges"), press) / reference - 1
+    assert (difference > 0.1).all()
+
+
+def test_a_tilted_tool_drags_both_models_alike():
+    layers = skin_like(1e6, 2e5, 1e4, 10e-3)
+    press = Press(x=0.03, y=0.03, radius=0.003, force=0.1, tilt=0.6, azimuth=0.0)
+    where = np.array([[0.03, 0.03, 0.0], [0.034, 0.03, 0.0], [0.025, 0.03, 0.0], [0.03, 0.035, 0.0]])
+    reference = FEASolid(layers, size=SIZE, support="base", around=(press,))
+    model = WaveSolid(layers, size=SIZE)
+    for layer in layers.layer_names:
+        expected = reference.displacement(reference.static((press,)), where, layer)
+        actual = model.displacement(model.static((press,)), where, layer)
+        # Points inside and outside the footprint, all three components, relative to the largest.
+        assert actual == pytest.approx(expected, abs=0.005 * np.abs(expected).max())
+
+
+def test_prestress_stiffens_both_models_alike():
+    from dataclasses import replace
+
+    layers = skin_like(1e6, 2e5, 1e4, 10e-3)
+    taut = replace(layers.layers[1], prestress_x=24e3, prestress_y=9.3e3)
+    layers = replace(layers, layers=(layers.layers[0], taut, layers.layers[2]))
+    press = Press(x=0.03, y=0.03, radius=0.003, force=0.1)
+    reference = largest(FEASolid(layers, size=SIZE, support="base", around=(press,)), press)
+    assert largest(WaveSolid(layers, size=SIZE), press) == pytest.approx(reference, rel=0.005)
+
+
+def test_half_a_sine_of_20_ms_is_followed():
+    skin = tissue("skin")
+    press = Press(x=0.03, y=0.03, radius=0.003, force=0.05)
+    models = {
+        "fea": FEASolid(skin, size=SIZE, support=Support.BASE, around=(press,)),
+        "wave-solid": WaveSolid(skin, size=SIZE),
+    }
+    curves = half_sine(models, press)
+    assert curves["fea"].max() > 1e-4
+    assert nrmse(curves["fea"], curves["wave-solid"]) < 0.02
+
+
+def test_the_sweep_yields_what_it_says():
+    row = next(agreements(Support.BASE, places=(MIDDLE,), diameters=(6e-3,), fats=(5e-3,)))
+    assert row.reference.shape == row.solid.shape == row.membrane.shape == (3,)
+    assert np.abs(row.solid).max() < 0.005
