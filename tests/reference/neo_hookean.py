@@ -5,11 +5,12 @@ compressible neo-Hookean solid
 
     W = C10 (I1_bar - 3) + (J - 1)^2 / D1,    C10 = mu / 2,  D1 = 2 / K
 
-with the small-strain moduli of the layer, so that small forces give the linear answer. Prestress is an initial
-second Piola-Kirchhoff stress; CalculiX ignores it in hyperelastic elements, so a second set
-of elements on the same nodes carries it, with next to no stiffness of its own. The tool is a dead load: nodal forces that keep direction and size, consistent
-with a uniform disc (CalculiX's own pressure would turn with the surface). Mesh, forces and the reading of the
-result are made here and share nothing with `trocar.reference`.
+with the small-strain moduli of the layer, so that small forces give the linear answer. Prestress is an
+initial second Piola-Kirchhoff stress; CalculiX ignores it in hyperelastic elements, so a second set
+of elements on the same nodes carries it, with next to no stiffness of its own. The tool is a dead load: nodal
+forces that keep direction and size, consistent with a uniform disc (CalculiX's own pressure would turn with
+the surface). Mesh, forces and the reading of the result are made here and share nothing with
+`trocar.reference`.
 
 Lengths go to CalculiX in millimetres, forces in newtons and moduli in megapascals: it prints seven digits.
 """
@@ -31,8 +32,8 @@ from trocar.model import Support
 from trocar.tissues import Layer, Tissue
 from trocar.units import MEGAPASCAL, MILLIMETRE
 
-# C3D20 (CalculiX manual, sec. 6.2.8): corners of the lower face, of the upper face, middles of the lower edges, of
-# the upper edges, of the upright edges, each anticlockwise seen from above. Coordinates from -1 to 1.
+# C3D20 (CalculiX manual, sec. 6.2.8): corners of the lower face, of the upper face, middles of the lower edges,
+# of the upper edges, of the upright edges, each anticlockwise seen from above. Coordinates from -1 to 1.
 _CORNERS = np.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
 _EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
 LOCAL_NODES = np.vstack([_CORNERS, [(_CORNERS[i] + _CORNERS[j]) // 2 for i, j in _EDGES]])
@@ -53,7 +54,8 @@ class Pressed:
     Args:
         force: of the tool [N].
         deflection: largest deflection of each layer's upper face [m], top first.
-        stretch: smallest principal stretch at any Gauss point [1]; 0.3 is about where a neo-Hookean fit to soft
+        stretch: smallest principal stretch at any Gauss point [1]; 0.3 is about where a neo-Hookean fit to
+        soft
             tissue means nothing any more.
         height: smallest height of a layer over its thickness, at any node of its faces [1].
         volume_ratio: smallest and largest determinant of the deformation gradient [1].
@@ -68,7 +70,7 @@ class Pressed:
     @property
     def sane(self) -> bool:
         """Whether the state can exist and the law is not stretched beyond reason."""
-        return self.stretch > 0.3 and self.height > 0.3 and 0.8 < self.volume_ratio[0]
+        return self.stretch > 0.3 and self.height > 0.3 and self.volume_ratio[0] > 0.8
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,12 +105,14 @@ class NeoHookeanBlock:
         run = subprocess.run(
             [command, "block"], cwd=folder, env=environment, capture_output=True, text=True, check=False
         )
-        steps = self._read((folder / "block.dat").read_text())[1:]  # the first step only settles the prestress
+        steps = self._read((folder / "block.dat").read_text())[
+            1:
+        ]  # the first step only settles the prestress
         if len(steps) < len(forces) and "increment size smaller" not in run.stdout:
             raise RuntimeError(f"CalculiX failed: {run.stdout[-1500:]}{run.stderr}")
         return [self._measured(force, field) for force, field in zip(forces, steps, strict=False)]
 
-    # The mesh -------------------------------------------------------------------------------------------------
+    # The mesh
 
     @cached_property
     def _lines(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -138,8 +142,12 @@ class NeoHookeanBlock:
         cells = np.stack(np.meshgrid(*(np.arange(c) for c in counts), indexing="ij"), axis=-1).reshape(-1, 3)
         twice = 2 * cells[:, None, :] + 1 + LOCAL_NODES
         shape = tuple(2 * c + 1 for c in counts)
-        used, elements = np.unique(np.ravel_multi_index(tuple(np.moveaxis(twice, 2, 0)), shape), return_inverse=True)
-        halves = [np.interp(np.arange(2 * len(line) - 1) / 2, np.arange(len(line)), line) for line in (x, y, z)]
+        used, elements = np.unique(
+            np.ravel_multi_index(tuple(np.moveaxis(twice, 2, 0)), shape), return_inverse=True
+        )
+        halves = [
+            np.interp(np.arange(2 * len(line) - 1) / 2, np.arange(len(line)), line) for line in (x, y, z)
+        ]
         places = [half[index] for half, index in zip(halves, np.unravel_index(used, shape), strict=True)]
         return np.stack(places, axis=1), elements.reshape(-1, 20)
 
@@ -163,11 +171,13 @@ class NeoHookeanBlock:
             held[nodes[:, 2] == z[0]] = True
         for axis, line in ((0, x), (1, y)):
             side = nodes[:, axis] == line[0]
-            held[side] |= np.array([self.support.sides_clamped or component != axis for component in range(3)])
+            held[side] |= np.array(
+                [self.support.sides_clamped or component != axis for component in range(3)]
+            )
             held[nodes[:, axis] == line[-1], axis] = True  # the mirror planes
         return held
 
-    # The loads ------------------------------------------------------------------------------------------------
+    # The loads
 
     def _tool_forces(self) -> np.ndarray:
         """Nodal forces along -z for 1 N on the whole block, shape (n,)."""
@@ -206,7 +216,7 @@ class NeoHookeanBlock:
                 np.add.at(forces[:, axis], chosen[:, here], -tension * area[:, None] * weights)
         return forces
 
-    # The deck -------------------------------------------------------------------------------------------------
+    # The deck
 
     def _deck(self, forces: tuple[float, ...]) -> list[str]:
         nodes, elements = self._lattice
@@ -234,7 +244,9 @@ class NeoHookeanBlock:
     def _initial_stress(self) -> list[str]:
         lines, count = [], len(self._lattice[1])
         for number, layer in enumerate(self.tissue.layers):
-            stress = f"{layer.prestress_x / MEGAPASCAL:.12g}, {layer.prestress_y / MEGAPASCAL:.12g}, 0, 0, 0, 0"
+            stress = (
+                f"{layer.prestress_x / MEGAPASCAL:.12g}, {layer.prestress_y / MEGAPASCAL:.12g}, 0, 0, 0, 0"
+            )
             if layer.prestress_x or layer.prestress_y:
                 chosen = np.flatnonzero(self._element_layer == number) + count + 1
                 lines += [f"{element}, {point}, {stress}" for element in chosen for point in range(1, 9)]
@@ -256,7 +268,7 @@ class NeoHookeanBlock:
             "*END STEP",
         ]
 
-    # The result -----------------------------------------------------------------------------------------------
+    # The result
 
     def _read(self, text: str) -> list[np.ndarray]:
         rows = [match.groups() for match in map(_PRINTED_ROW.match, text.splitlines()) if match]
@@ -301,7 +313,7 @@ def shape_functions(local: np.ndarray) -> np.ndarray:
 
 
 def _shape_gradients(local: np.ndarray) -> np.ndarray:
-    """Return their gradients, shape (n, 20, 3): central differences, exact for functions quadratic in each variable."""
+    """Return their gradients, shape (n, 20, 3), by central differences, exact for quadratics."""
     steps = np.eye(3)
     return np.stack([(shape_functions(local + h) - shape_functions(local - h)) / 2 for h in steps], axis=2)
 
