@@ -166,9 +166,7 @@ def main() -> None:
     print(f"\n{len(rows)} cases, {len(reached)} of them reach 3 %.")
     print(f"called inside though beyond 3 %: {int((allowed > 1).sum())}")
     print(f"called outside though a force twice as large is within 3 %: {int((allowed < 0.5).sum())}")
-    print(
-        f"limit over the 3 % force: median {np.median(allowed):.2f}, {allowed.min():.2f} to {allowed.max():.2f}"
-    )
+    print(f"limit / 3 %: median {np.median(allowed):.2f}, {allowed.min():.2f} to {allowed.max():.2f}")
     insane = [row.case.tissue.name for row in rows if not row.pressed.sane]
     print(f"states beyond reason (stretch or height below 0.3, volume ratio below 0.8): {insane or 'none'}")
 

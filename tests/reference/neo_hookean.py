@@ -32,8 +32,8 @@ from trocar.model import Support
 from trocar.tissues import Layer, Tissue
 from trocar.units import MEGAPASCAL, MILLIMETRE
 
-# C3D20 (CalculiX manual, sec. 6.2.8): corners of the lower face, of the upper face, middles of the lower edges,
-# of the upper edges, of the upright edges, each anticlockwise seen from above. Coordinates from -1 to 1.
+# C3D20 (CalculiX manual, sec. 6.2.8): corners of the lower face, of the upper face, middles of the lower
+# edges, of the upper edges, of the upright edges, each anticlockwise seen from above. Coordinates from -1 to 1.
 _CORNERS = np.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
 _EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
 LOCAL_NODES = np.vstack([_CORNERS, [(_CORNERS[i] + _CORNERS[j]) // 2 for i, j in _EDGES]])
