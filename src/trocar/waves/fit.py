@@ -7,7 +7,9 @@ Three linear-response moments of the solid at the top face are matched, all unde
     damping     p^T K^-1 C K^-1 p, the first moment in time; linear in the retardation times of sheets and beds
     inertia     p^T K^-1 M K^-1 p, the second; linear in the areal densities
 
-The last two are bounded linear least squares, weighted by what each wavenumber adds to the deflection under the tool.
+The last two are bounded least squares, weighted by what each wavenumber adds to the deflection under the tool: no
+density is negative, and no retardation time is negative or above a few times the slowest layer's. Without the upper
+bound a bed that hardly stretches can be given any time, up to one at which the equations of motion lose their sign.
 A fit holds for the block it was made for: its size, its support, and tools from 5 to 12 mm across.
 """
 
@@ -29,8 +31,9 @@ from trocar.waves.thin_layer import ThinLayers, Wavenumbers, vertical_and_along
 RADII = (2.5e-3, 3e-3, 4e-3, 6e-3)  # [m] tools of 5, 6, 8 and 12 mm
 _MODES = 63  # highest odd mode: a flat 5 mm tool's peak within 0.1 %
 _STATIONS = (0.0, 0.5, 1.0, 1.5, 2.5)  # where the profile is matched, in tool radii from the centre
-_LEAST, _MOST = -14.0, 3.0  # logarithms of coefficients over derived ones, which are already too stiff
-_LONGEST = 3.0  # retardation times stay within this many times the layers' longest
+_LOG_RANGE = 14.0  # coefficients stay within e^14 of their derived values
+_LOG_STIFFER = 3.0  # a bed stays below e^3 of its derived stiffness, which is already that of no give sideways
+_SLOWER = 10.0  # times the slowest layer's retardation time: the most a sheet or bed is given
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,7 @@ def fitted_stack(tissue: Tissue, *, size: tuple[float, float], support: Support)
     even = Tissue(layers=tuple(_evenly_prestressed(layer) for layer in tissue.layers), name=tissue.name)
     target = _target(even, size, support)
     stack = _fit_static(even, target, support)
-    stack = _fit_rates(stack, target, _LONGEST * max(layer.retardation_time for layer in tissue.layers))
+    stack = _fit_rates(even, stack, target)
     sheets = []
     for sheet, layer in zip(stack.sheets, tissue.layers, strict=True):
         half = 0.5 * (layer.prestress_x - layer.prestress_y) * layer.thickness
@@ -123,8 +126,10 @@ def _fit_static(tissue: Tissue, target: _Target, support: Support) -> Stack:
         residual: FloatArray = ((target.profile @ response - wanted) / peaks).ravel()
         return residual
 
-    count = int(free.sum())
-    found = least_squares(misfit, np.zeros(count), bounds=(_LEAST, _MOST), max_nfev=200)
+    highest = np.full(len(first), _LOG_RANGE)
+    highest[2 * layers :] = _LOG_STIFFER
+    bounds = (np.full(int(free.sum()), -_LOG_RANGE), highest[free])
+    found = least_squares(misfit, np.zeros(len(bounds[0])), bounds=bounds, x_scale=1.0, max_nfev=200)
     values = coefficients(found.x)
     sheets = tuple(
         replace(sheet, tension_x=float(t), tension_y=float(t), bending=float(d))
@@ -160,7 +165,7 @@ def _response(values: FloatArray, layers: int, at: Wavenumbers) -> FloatArray:
     return np.stack(response, axis=1)
 
 
-def _fit_rates(stack: Stack, target: _Target, longest: float) -> Stack:
+def _fit_rates(tissue: Tissue, stack: Stack, target: _Target) -> Stack:
     layers = len(stack.sheets)
     values = _coefficients(stack)
     response = _response(values, layers, target.at)
@@ -170,10 +175,7 @@ def _fit_rates(stack: Stack, target: _Target, longest: float) -> Stack:
     beds = values[2 * layers :] * gaps**2
     weight = np.abs(target.profile[:: len(_STATIONS)]).sum(axis=0)
     densities, _ = nnls(weight[:, None] * response**2, weight * target.inertia)
-    times = np.zeros(2 * layers)
-    if longest > 0:
-        drag = weight[:, None] * np.hstack([own, beds])
-        times = lsq_linear(drag, weight * target.damping, bounds=(0.0, longest)).x
+    times = _retardation_times(tissue, weight[:, None] * np.hstack([own, beds]), weight * target.damping)
     least = 1e-3 * densities.max()  # a sheet must weigh something to move
     sheets = tuple(
         replace(sheet, areal_density=float(max(m, least)), retardation_time=float(t))
@@ -184,3 +186,12 @@ def _fit_rates(stack: Stack, target: _Target, longest: float) -> Stack:
         for coupling, t in zip(stack.couplings, times[layers:], strict=True)
     )
     return Stack(sheets=sheets, couplings=couplings)
+
+
+def _retardation_times(tissue: Tissue, columns: FloatArray, wanted: FloatArray) -> FloatArray:
+    slowest = max(layer.retardation_time for layer in tissue.layers)
+    if slowest == 0:
+        return np.zeros(columns.shape[1])
+    found = lsq_linear(columns * slowest, wanted, bounds=(0, _SLOWER), method="bvls", tol=1e-12)
+    times: FloatArray = found.x * slowest
+    return times

@@ -129,12 +129,12 @@ class WaveMembrane:
         """
         require_step(load0, load1, dt)
         (oscillators,) = state.oscillators
-        advanced = self.oscillators.step(oscillators, self._forces(load0), self._forces(load1), dt)
+        advanced = self.oscillators.step(oscillators, self._inputs(load0), self._inputs(load1), dt)
         return WaveState(state.time + dt, (advanced,), load1)
 
     def static(self, load: Load) -> WaveState:
         """Return the equilibrium under a constant load."""
-        return WaveState(0.0, (self.oscillators.equilibrium(self._forces(load)),), load)
+        return WaveState(0.0, (self.oscillators.equilibrium(self._inputs(load)),), load)
 
     def displacement(self, state: WaveState, points: FloatArray, layer: str | None = None) -> FloatArray:
         """Return the displacement [m] of a layer at points [m]; both of shape (n, 3). Only u_z is not zero.
@@ -173,11 +173,15 @@ class WaveMembrane:
         table: FloatArray = np.linalg.solve(self._stiffness, top)[..., 0].reshape(*self.modes, -1)
         return table
 
-    def _forces(self, load: Load) -> FloatArray:
-        total = np.zeros((len(self._mass), 1))
+    def modal_forces(self, load: Load) -> FloatArray:
+        """Return the load's integrals against the modes [N], shape (M N,), n fastest."""
+        total = np.zeros(len(self._mass))
         for press in load:
-            total[:, 0] += press.force * self._unit_forces(press.with_force(1.0))
+            total += press.force * self._unit_forces(press.with_force(1.0))
         return total
+
+    def _inputs(self, load: Load) -> FloatArray:
+        return self.modal_forces(load)[:, None]
 
     def _forces_of_unit_press(self, press: Press) -> FloatArray:
         across: FloatArray = modal_forces(press, self._series)[2, 1:, 1:].ravel()

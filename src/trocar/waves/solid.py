@@ -102,10 +102,10 @@ class WaveSolid:
         """
         require_step(load0, load1, dt)
         if not state.oscillators:
-            held = self._moving_forces(state.load)
+            held = self.moving_forces(state.load)
             families = zip((self.oscillators_wv, self.oscillators_s), held, strict=True)
             state = WaveState(state.time, tuple(family.equilibrium(f) for family, f in families), state.load)
-        start, end = self._moving_forces(load0), self._moving_forces(load1)
+        start, end = self.moving_forces(load0), self.moving_forces(load1)
         wv = self.oscillators_wv.step(state.oscillators[0], start[0], end[0], dt)
         s = self.oscillators_s.step(state.oscillators[1], start[1], end[1], dt)
         return WaveState(state.time + dt, (wv, s), load1)
@@ -179,7 +179,8 @@ class WaveSolid:
         distinct, places = _distinct(self._moving, wanted, self.tissue)
         return ritz_oscillators(layers, distinct, self._order).gathered(places)
 
-    def _moving_forces(self, load: Load) -> tuple[FloatArray, FloatArray]:
+    def moving_forces(self, load: Load) -> tuple[FloatArray, FloatArray]:
+        """Return the traction's amplitudes [Pa] on the groups of `oscillators_wv`, shape (J, 2), and `_s`, (J', 1)."""
         rows, columns = self._moving.kx.size, self._moving.ky.size
         wv = np.zeros((rows, columns, 2))
         s = np.zeros((rows, columns))
@@ -189,6 +190,13 @@ class WaveSolid:
             wv[..., 1] += press.force * along
             s += press.force * side
         return wv[1:, 1:].reshape(-1, 2), s.reshape(-1, 1)[1:]
+
+    def moving_shapes(self, points: FloatArray) -> FloatArray:
+        """Return sin(kx x) sin(ky y) of the groups of `oscillators_wv` at points [m], shape (n, 3); shape (n, J)."""
+        along_x = np.sin(np.outer(points[:, 0], self._moving.kx[1:]))
+        along_y = np.sin(np.outer(points[:, 1], self._moving.ky[1:]))
+        shapes: FloatArray = (along_x[:, :, None] * along_y[:, None, :]).reshape(len(points), -1)
+        return shapes
 
     @cached_property
     def _unit_polarised(self):  # type: ignore[no-untyped-def]
