@@ -1,8 +1,8 @@
 """Print how far the wave models agree with finite elements, support by support.
 
-    python bench/agreement.py base            all nine places (three and their mirror images), about half an hour
-    python bench/agreement.py edges+base --central
-    python bench/agreement.py edges --central
+python bench/agreement.py base            all nine places (three and their mirror images), about half an hour
+python bench/agreement.py edges+base --central
+python bench/agreement.py edges --central
 """
 
 import argparse
@@ -15,11 +15,16 @@ from trocar.study.sweep_of_agreement import PLACES, agreements
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    """Run the sweep named on the command line."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("support", choices=[kind.value for kind in Support])
     parser.add_argument("--central", action="store_true", help="only a tool in the middle")
     choice = parser.parse_args()
-    print("fat mm | E epidermis, dermis, fat kPa | place | d mm | FEA mm | WaveSolid - FEA, % | WaveMembrane - FEA, %")
+    print(
+        "fat mm | E epidermis, dermis, fat kPa | place | d mm | FEA mm | WaveSolid - FEA, % | WaveMembrane - FEA, %"
+    )
     rows = []
     for row in agreements(Support(choice.support), places=PLACES[:1] if choice.central else PLACES):
         rows.append(row)

@@ -107,7 +107,7 @@ def measured(case: Case) -> Row:
     """Run one row."""
     press = Press(x=SIZE[0] / 2, y=SIZE[1] / 2, radius=case.diameter / 2, force=1.0)
     linear = FEASolid(case.tissue, size=SIZE, support=case.support, around=(press,), solver="superlu")
-    criterion = linear_range(linear, (press,))
+    criterion = linear_range(linear, case.tissue, (press,))
     share = criterion.deflection_share
     block = NeoHookeanBlock(tissue=case.tissue, size=SIZE, support=case.support, radius=press.radius)
     with tempfile.TemporaryDirectory() as folder:

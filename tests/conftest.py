@@ -1,6 +1,7 @@
 """Fixtures that tests share."""
 
 import pytest
+
 from sample_tissues import three_layers
 
 

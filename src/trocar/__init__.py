@@ -14,6 +14,8 @@ if TYPE_CHECKING:  # the same names for type checkers and editors
     from trocar.model import Press as Press
     from trocar.model import Support as Support
     from trocar.reference.fea import FEASolid as FEASolid
+    from trocar.study.case import load_case as load_case
+    from trocar.study.compare import compare as compare
     from trocar.tissues.catalogue import tissue as tissue
     from trocar.tissues.layer import Layer as Layer
     from trocar.tissues.tissue import Tissue as Tissue

@@ -1,9 +1,9 @@
 """Every tissue model, bound to the contract."""
 
 import pytest
+
 from contracts.tissue_model import TissueModelContract
 from sample_tissues import three_layers
-
 from trocar.model import Press
 from trocar.reference.block import MeshSize
 from trocar.reference.fea import FEASolid

@@ -1,5 +1,7 @@
 """The claim of the project, on a few presses; `bench/agreement.py` runs the whole sweep."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -36,7 +38,9 @@ def test_clamped_sides_matter_little_to_a_central_tool_on_thin_fat():
     layers = skin_like(1e6, 2e5, 1e4, 10e-3)
     press = Press(x=0.03, y=0.03, radius=0.003, force=0.1)
     reference = largest(FEASolid(layers, size=SIZE, support="edges+base", around=(press,)), press)
-    assert largest(WaveSolid(layers, size=SIZE, support="edges+base"), press) == pytest.approx(reference, rel=0.01)
+    assert largest(WaveSolid(layers, size=SIZE, support="edges+base"), press) == pytest.approx(
+        reference, rel=0.01
+    )
 
 
 def test_clamped_sides_are_not_sine_modes():
@@ -62,8 +66,6 @@ def test_a_tilted_tool_drags_both_models_alike():
 
 
 def test_prestress_stiffens_both_models_alike():
-    from dataclasses import replace
-
     layers = skin_like(1e6, 2e5, 1e4, 10e-3)
     taut = replace(layers.layers[1], prestress_x=24e3, prestress_y=9.3e3)
     layers = replace(layers, layers=(layers.layers[0], taut, layers.layers[2]))

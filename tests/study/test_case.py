@@ -112,7 +112,7 @@ def test_examples_are_what_they_say():
     assert by_name["dynamic"].sampling.dynamic
     assert len(by_name["pair"].tools) == 2
     assert by_name["tilted"].tools[0].tilt == pytest.approx(pi / 6, rel=1e-15)  # one rounding
-    assert by_name["press"].peak_force == 0.2
+    assert by_name["press"].peak_force == 0.1
 
 
 CHANGES = [
@@ -171,15 +171,15 @@ CHANGES = [
     ("tilt_deg = 0", "tilt_deg = 83", "tool[0].position_mm", "got 65.644"),
     ("tilt_deg = 0", "tilt_deg = -1", "tool[0].tilt_deg", "azimuth_deg"),
     ("azimuth_deg = 0", "azimuth_deg = 400", "tool[0].azimuth_deg", "-360 to 360"),
-    ("peak_n = 0.2", "peak_n = 0", "tool[0].peak_n", "got 0"),
-    ("peak_n = 0.2", "peak_n = -5", "tool[0].peak_n", "got -5"),
+    ("peak_n = 0.1", "peak_n = 0", "tool[0].peak_n", "got 0"),
+    ("peak_n = 0.1", "peak_n = -5", "tool[0].peak_n", "got -5"),
     ("rate_n_s = 0.05", "rate_n_s = 0", "tool[0].rate_n_s", "got 0"),
     ("rate_n_s = 0.05", "rate_n_s = 1e9", "tool[0].rate_n_s", "reaches the peak"),
     ("rate_n_s = 0.05", "rate_n_s = 1e-9", "tool[0].rate_n_s", "reaches the peak"),
     ("hold_s = 0", "hold_s = -1", "tool[0].hold_s", "got -1"),
     ("period_s = 0.5", "period_s = 0", "sampling.period_s", "got 0"),
     ("period_s = 0.5", "period_s = -2", "sampling.period_s", "got -2"),
-    ("period_s = 0.5", "period_s = 1e-5", "sampling.period_s", "period of at least 8e-05 s"),
+    ("period_s = 0.5", "period_s = 1e-5", "sampling.period_s", "period of at least 4e-05 s"),
     ("dynamic = false", "dynamic = 0", "sampling.dynamic", "true or false"),
     ("dynamic = false", 'dynamic = "no"', "sampling.dynamic", "true or false"),
     ("size_mm = [60, 60]", "size_mm = [60]", "block.size_mm", "two numbers"),
@@ -192,8 +192,8 @@ CHANGES = [
     ("[block]", "[blok]", "blok", "did you mean block?"),
     ("[block]\n", "block = 3\n[x]\n", "x", "only the keys"),
     ("[sampling]", "[sampling.x]", "sampling.x", "only the keys period_s, dynamic"),
-    ('title = "0.2 N on skin-like layers"', "", "title", "got nothing"),
-    ('title = "0.2 N on skin-like layers"', 'title = "x"\n"\\u0000" = 1', "'\\x00'", "only the keys"),
+    ('title = "0.1 N on skin-like layers"', "", "title", "got nothing"),
+    ('title = "0.1 N on skin-like layers"', 'title = "x"\n"\\u0000" = 1', "'\\x00'", "only the keys"),
 ]  # fmt: skip
 
 

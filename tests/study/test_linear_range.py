@@ -51,6 +51,12 @@ class Column:
     size: tuple[float, float] = SIZE
     support: Support = Support.BASE
 
+    dofs: int = 2
+
+    @property
+    def layer_names(self) -> tuple[str, ...]:
+        return self.tissue.layer_names
+
     def init(self) -> Moment:
         return Moment(0.0, 0.0)
 
@@ -89,7 +95,7 @@ def wave(amplitude: float, *, count: int = 241, base_held: bool = True) -> Sampl
 
 def test_a_column_is_judged_by_the_strain_of_its_softest_layer() -> None:
     pressure = 1.0 / (SIZE[0] * SIZE[1])
-    found = linear_range(Column(), (PRESS,))
+    found = linear_range(Column(), TISSUE, (PRESS,))
     assert found.strain == pytest.approx(pressure / modulus(SOFT), rel=1e-12)
     shortening = 0.01 * pressure / modulus(SOFT) + 0.002 * pressure / modulus(STIFF)
     assert found.deflection_share == pytest.approx(shortening / 0.012, rel=1e-12)
@@ -100,8 +106,10 @@ def test_a_column_is_judged_by_the_strain_of_its_softest_layer() -> None:
 
 
 def test_at_the_force_limit_inside_turns_into_outside() -> None:
-    limit = linear_range(Column(), (PRESS,)).force_limit
-    below, above = (linear_range(Column(), (PRESS.with_force(s * limit),)) for s in (1 - 1e-9, 1 + 1e-9))
+    limit = linear_range(Column(), TISSUE, (PRESS,)).force_limit
+    below, above = (
+        linear_range(Column(), TISSUE, (PRESS.with_force(s * limit),)) for s in (1 - 1e-9, 1 + 1e-9)
+    )
     assert below.inside
     assert not above.inside
     assert below.force_limit == pytest.approx(limit, rel=1e-12)
@@ -109,13 +117,13 @@ def test_at_the_force_limit_inside_turns_into_outside() -> None:
 
 
 def test_pulling_is_judged_as_pushing() -> None:
-    push, pull = (linear_range(Column(), (PRESS.with_force(force),)) for force in (1.0, -1.0))
+    push, pull = (linear_range(Column(), TISSUE, (PRESS.with_force(force),)) for force in (1.0, -1.0))
     assert push == pull
 
 
 def test_a_free_base_leaves_the_lowest_layer_to_the_deflection() -> None:
-    free = linear_range(Column(support=Support.EDGES), (PRESS,))
-    held = linear_range(Column(), (PRESS,))
+    free = linear_range(Column(support=Support.EDGES), TISSUE, (PRESS,))
+    held = linear_range(Column(), TISSUE, (PRESS,))
     assert free.strain == pytest.approx(1.0 / (SIZE[0] * SIZE[1]) / modulus(STIFF), rel=1e-9)
     assert free.deflection_share == held.deflection_share
     assert free.limiting == "deflection_share"
@@ -123,16 +131,16 @@ def test_a_free_base_leaves_the_lowest_layer_to_the_deflection() -> None:
 
 
 def test_a_moving_block_is_judged_where_it_is_and_keeps_the_force_limit() -> None:
-    still = linear_range(Column(), (PRESS,))
-    moving = linear_range(Column(), (PRESS,), Moment(0.02, 1.5))
+    still = linear_range(Column(), TISSUE, (PRESS,))
+    moving = linear_range(Column(), TISSUE, (PRESS,), Moment(0.02, 1.5))
     assert moving.strain == pytest.approx(1.5 * still.strain, rel=1e-12)
     assert moving.force_limit == still.force_limit
 
 
 def test_stretching_of_a_moving_block_grows_as_the_square_of_its_deflection() -> None:
     model = WaveSolid(TISSUE, size=SIZE, modes=(24, 24))
-    still = linear_range(model, (PRESS,))
-    moving = linear_range(model, (PRESS,), model.static((PRESS.with_force(3.0),)))
+    still = linear_range(model, TISSUE, (PRESS,))
+    moving = linear_range(model, TISSUE, (PRESS,), model.static((PRESS.with_force(3.0),)))
     assert moving.stretching == pytest.approx(9.0 * still.stretching, rel=1e-9)
 
 
@@ -200,7 +208,7 @@ def test_the_samples_reach_both_ends_and_are_fine_at_every_tool() -> None:
 @pytest.mark.parametrize("load", [(), (PRESS.with_force(0.0),)])
 def test_a_load_without_force_is_refused(load: Load) -> None:
     with pytest.raises(InputError, match="force other than 0"):
-        linear_range(Column(), load)
+        linear_range(Column(), TISSUE, load)
 
 
 @pytest.mark.parametrize("key", ["work", "force"])
@@ -218,7 +226,7 @@ def test_skin_parts_from_neo_hookean_where_the_criterion_says(tmp_path: Path) ->
     tissue, size, radius = trocar.tissue("skin"), (0.06, 0.06), 0.004
     press = Press(x=0.03, y=0.03, radius=radius, force=1.0)
     model = WaveSolid(tissue, size=size, modes=(96, 96))
-    limit = linear_range(model, (press,)).force_limit
+    limit = linear_range(model, tissue, (press,)).force_limit
     block = NeoHookeanBlock(tissue=tissue, size=size, support=Support.BASE, radius=radius, per_radius=1.5)
     steps = block.pressed((0.01 * limit, limit, 4 * limit), tmp_path)
     assert len(steps) == 3

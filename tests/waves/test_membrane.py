@@ -94,7 +94,9 @@ def test_one_step_of_100_ms_equals_100_of_1_ms(damping):
     # 1e-10 of the release's 1 mm.
     assert often.time == pytest.approx(once.time)
     for layer in model.layer_names:
-        assert model.amplitudes(often, layer) == pytest.approx(model.amplitudes(once, layer), abs=1e-10 * 1e-3)
+        assert model.amplitudes(often, layer) == pytest.approx(
+            model.amplitudes(once, layer), abs=1e-10 * 1e-3
+        )
 
 
 def test_a_ramp_of_1_s_in_one_step_equals_1000_steps():
@@ -174,7 +176,9 @@ def test_a_drum_under_a_small_disc_matches_the_logarithmic_closed_form():
     disc = (Press(x=A / 2, y=A / 2, radius=0.003, force=1.0),)
     bent = model.displacement(model.static(disc), np.array([[A / 2, A / 2, 0], [A / 2 + 0.003, A / 2, 0]]))
     # Inside a uniformly loaded disc u falls by F/(4 pi T) from its centre to its rim, wherever the edge is.
-    assert bent[0, 2] - bent[1, 2] == pytest.approx(-1.0 / (4 * np.pi * 25.7), rel=5e-3)  # 300 modes; square edge
+    assert bent[0, 2] - bent[1, 2] == pytest.approx(
+        -1.0 / (4 * np.pi * 25.7), rel=5e-3
+    )  # 300 modes; square edge
 
 
 def test_a_press_moves_what_it_touches_and_linearly():
@@ -209,7 +213,11 @@ def test_unknown_layers_and_impossible_steps_are_refused():
 
 @pytest.mark.parametrize(
     ("change", "word"),
-    [({"areal_density": 0.0}, "areal_density"), ({"tension_x": -1.0}, "tension_x"), ({"bending": float("nan")}, "bend")],
+    [
+        ({"areal_density": 0.0}, "areal_density"),
+        ({"tension_x": -1.0}, "tension_x"),
+        ({"bending": float("nan")}, "bend"),
+    ],
 )
 def test_impossible_sheets_are_refused(change, word):
     sheet = {"name": "s", "tension_x": 1.0, "tension_y": 1.0, "areal_density": 1.0}

@@ -44,6 +44,8 @@ def test_the_corrected_dermis():
     assert (sheet.tension_x, sheet.tension_y) == pytest.approx((24.0, 9.3))
     assert np.sqrt(sheet.tension_x / sheet.areal_density) == pytest.approx(4.67, abs=0.01)  # [m/s] along
     start = corrected_start(model)
-    assert model.displacement(start, MIDDLE)[0, 2] == pytest.approx(5 * 0.03**4, rel=1e-4)  # 40 odd modes of a bump
+    assert model.displacement(start, MIDDLE)[0, 2] == pytest.approx(
+        5 * 0.03**4, rel=1e-4
+    )  # 40 odd modes of a bump
     rim = np.array([[0.0, 0.01, 0.0], [0.06, 0.03, 0.0]])
     assert np.abs(model.displacement(start, rim)).max() < 1e-18

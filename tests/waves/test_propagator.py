@@ -1,5 +1,7 @@
 """The exact step against matrix exponentials of the augmented system, which share no formula with it."""
 
+import itertools
+
 import numpy as np
 import pytest
 from scipy.linalg import expm
@@ -48,9 +50,11 @@ def test_one_long_step_equals_many_short_ones(name):
     once, often = Propagator.over(block, inputs, 1.0), Propagator.over(block, inputs, 1e-3)
     force = np.linspace(0.0, 7.0, 1001)
     state = np.array([0.2, 0.1])
-    for f0, f1 in zip(force[:-1], force[1:], strict=True):
+    for f0, f1 in itertools.pairwise(force):
         state = (
-            often.transition[0, 0] @ state + often.start_gain[0, 0, :, 0] * f0 + often.end_gain[0, 0, :, 0] * f1
+            often.transition[0, 0] @ state
+            + often.start_gain[0, 0, :, 0] * f0
+            + often.end_gain[0, 0, :, 0] * f1
         )
     expected = once.transition[0, 0] @ [0.2, 0.1] + once.end_gain[0, 0, :, 0] * 7.0
     # A thousand roundings, each relative to what the state held at the time.

@@ -26,7 +26,9 @@ def test_coefficients_of_a_parabola_match_the_closed_form():
 
 def test_a_single_mode_is_found_alone():
     series = Series(SIZE, (12, 12))
-    table = series.coefficients(lambda x, y: np.sin(3 * np.pi * x / SIZE[0]) * np.sin(5 * np.pi * y / SIZE[1]))
+    table = series.coefficients(
+        lambda x, y: np.sin(3 * np.pi * x / SIZE[0]) * np.sin(5 * np.pi * y / SIZE[1])
+    )
     expected = np.zeros_like(table)
     expected[3, 5] = 1.0
     assert table == pytest.approx(expected, abs=1e-14)
@@ -38,9 +40,15 @@ def test_sums_match_the_definition():
     points = np.array([[0.01, 0.02, 0.0], [0.05, 0.013, 0.0]])
     for p, (x, y, _) in enumerate(points):
         phase_x, phase_y = series.kx[:, None] * x, series.ky[None, :] * y
-        assert series.vertical(table, points)[p] == pytest.approx((table * np.sin(phase_x) * np.sin(phase_y)).sum())
-        assert series.along_x(table, points)[p] == pytest.approx((table * np.cos(phase_x) * np.sin(phase_y)).sum())
-        assert series.along_y(table, points)[p] == pytest.approx((table * np.sin(phase_x) * np.cos(phase_y)).sum())
+        assert series.vertical(table, points)[p] == pytest.approx(
+            (table * np.sin(phase_x) * np.sin(phase_y)).sum()
+        )
+        assert series.along_x(table, points)[p] == pytest.approx(
+            (table * np.cos(phase_x) * np.sin(phase_y)).sum()
+        )
+        assert series.along_y(table, points)[p] == pytest.approx(
+            (table * np.sin(phase_x) * np.cos(phase_y)).sum()
+        )
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """WaveSolid: the static series, the moving oscillators, and that the two agree."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -33,7 +34,9 @@ def test_a_held_load_ends_in_the_static_answer(make_skin, support, dermis):
     for layer in model.layer_names:
         expected = model.displacement(still, anywhere(), layer)
         # Ritz vectors come from dense inverses: condition 1e6 to 1e8 times rounding, squared by Galerkin.
-        assert model.displacement(held, anywhere(), layer) == pytest.approx(expected, abs=1e-8 * np.abs(expected).max())
+        assert model.displacement(held, anywhere(), layer) == pytest.approx(
+            expected, abs=1e-8 * np.abs(expected).max()
+        )
 
 
 def test_stepping_from_a_static_state_goes_on_from_there(skin):
@@ -52,7 +55,9 @@ def test_one_long_step_equals_many_short_ones(skin):
         loads = [(TILTED.with_force(0.1 * s / 50),) for s in (step, step + 1)]
         often = model.step(often, *loads, 1e-3)
     expected = model.displacement(once, anywhere(), "fat")
-    assert model.displacement(often, anywhere(), "fat") == pytest.approx(expected, abs=1e-10 * np.abs(expected).max())
+    assert model.displacement(often, anywhere(), "fat") == pytest.approx(
+        expected, abs=1e-10 * np.abs(expected).max()
+    )
 
 
 def test_a_square_block_does_not_know_x_from_y(skin):
@@ -101,7 +106,9 @@ def test_the_default_series_is_converged_under_a_5_mm_tool(skin):
     for layer in skin.layer_names:
         expected = fine.displacement(fine.static((press,)), centre, layer)[0, 2]
         # The disc's spectrum falls as k^-1.5 and the compliance as 1/k: 1e-4 is left at 128 modes.
-        assert coarse.displacement(coarse.static((press,)), centre, layer)[0, 2] == pytest.approx(expected, rel=3e-4)
+        assert coarse.displacement(coarse.static((press,)), centre, layer)[0, 2] == pytest.approx(
+            expected, rel=3e-4
+        )
 
 
 def test_more_ritz_vectors_and_modes_change_little(skin):
@@ -111,7 +118,7 @@ def test_more_ritz_vectors_and_modes_change_little(skin):
         model = WaveSolid(skin, size=SIZE, modes=(48, 48), **choice)
         state, depths = model.init(), []
         force = [0.1 * np.sin(np.pi * t / 20) if t < 20 else 0.0 for t in range(41)]
-        for f0, f1 in zip(force[:-1], force[1:], strict=True):
+        for f0, f1 in itertools.pairwise(force):
             state = model.step(state, (press.with_force(f0),), (press.with_force(f1),), 1e-3)
             depths.append(model.displacement(state, np.array([[0.025, 0.03, 0.0]]))[0, 2])
         return np.array(depths)

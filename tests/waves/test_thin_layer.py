@@ -46,7 +46,9 @@ def test_a_short_wave_sees_a_half_space():
     compliance = surface_compliance(vertical_and_along(tissue, base_held=True, refinement=4), at(k))[0, 0]
     mu, nu = tissue.layers[0].shear_modulus, 0.3
     # Johnson 1985, section 2.2 in Fourier space: w = (1 - nu)/(mu k) p, and the cross term (1 - 2 nu)/(2 mu k).
-    assert compliance[0, 0] == pytest.approx((1 - nu) / (mu * k), rel=1e-4)  # quadratic elements, k h_e = 0.25
+    assert compliance[0, 0] == pytest.approx(
+        (1 - nu) / (mu * k), rel=1e-4
+    )  # quadratic elements, k h_e = 0.25
     assert compliance[1, 1] == pytest.approx((1 - nu) / (mu * k), rel=1e-4)
     assert abs(compliance[1, 0]) == pytest.approx((1 - 2 * nu) / (2 * mu * k), rel=1e-3)
 

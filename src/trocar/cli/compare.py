@@ -14,11 +14,15 @@ if TYPE_CHECKING:
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    app.command(epilog="Example: trocar compare examples/press.toml --models wave-solid,wave-membrane,fea")(compare)
+    app.command(epilog="Example: trocar compare examples/press.toml --models wave-solid,wave-membrane,fea")(
+        compare
+    )
 
 
 def compare(
-    case: Annotated[Path, typer.Argument(help="A case file in TOML (docs: reference/case-file).", show_default=False)],
+    case: Annotated[
+        Path, typer.Argument(help="A case file in TOML (docs: reference/case-file).", show_default=False)
+    ],
     models: Annotated[
         str, typer.Option(help="Which models, separated by commas: wave-membrane, wave-solid, fea.")
     ] = "wave-solid,fea",
@@ -52,14 +56,26 @@ def _print(result: Comparison) -> None:
     console = Console()
     case = result.case
     sides = " x ".join(f"{side / MILLIMETRE:g}" for side in case.size)
-    console.print(f"[bold]{case.title}[/]: {sides} mm, support {case.support.value}, peak {case.peak_force:g} N")
+    console.print(
+        f"[bold]{case.title}[/]: {sides} mm, support {case.support.value}, peak {case.peak_force:g} N"
+    )
     table = Table()
     table.add_column("largest deflection, mm")
     for history in result.histories:
         table.add_column(history.model, justify="right")
     for layer in case.tissue.layer_names:
-        table.add_row(layer, *(f"{history.deflection[layer].max() / MILLIMETRE:.4g}" for history in result.histories))
+        table.add_row(
+            layer, *(f"{history.deflection[layer].max() / MILLIMETRE:.4g}" for history in result.histories)
+        )
     table.add_section()
     table.add_row("processor time, s", *(f"{history.cpu_seconds:.3g}" for history in result.histories))
     table.add_row("unknowns", *(f"{history.dofs}" for history in result.histories))
+    limits = [history.linear_range for history in result.histories]
+    table.add_row("in the linear range", *("yes" if limit.inside else "NO" for limit in limits))
     console.print(table)
+    if not all(limit.inside for limit in limits):
+        least = min(limit.force_limit for limit in limits)
+        console.print(
+            f"Outside the linear range: above {least:.2g} N these numbers are linear extrapolation, no prediction.",
+            style="bold",
+        )

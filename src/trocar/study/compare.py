@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from trocar.study.experiment import Case
 from trocar.study.history import History, run
@@ -62,17 +63,18 @@ def compare(
         InputError: a name is unknown, or that model is not built yet.
         SolverError: a model could not be solved.
     """
-    histories = []
-    for name in check_names(models):
-        histories.append(run(case, name, MODELS[name], lambda share, name=name: watch(name, share)))  # type: ignore[misc]
-    return Comparison(case=case, histories=tuple(histories))
+    histories = tuple(run(case, name, MODELS[name], partial(watch, name)) for name in check_names(models))
+    return Comparison(case=case, histories=histories)
 
 
 def _plain(history: History) -> dict[str, object]:
     return {
         "time_s": history.time.tolist(),
         "force_n": history.force.tolist(),
-        "max_deflection_mm": {name: (depth / MILLIMETRE).tolist() for name, depth in history.deflection.items()},
+        "max_deflection_mm": {
+            name: (depth / MILLIMETRE).tolist() for name, depth in history.deflection.items()
+        },
         "cpu_s": history.cpu_seconds,
         "dofs": history.dofs,
+        "in_range": history.linear_range.inside,
     }

@@ -53,16 +53,16 @@ def press_and_release(plan: Plan) -> Film:
     heights, depths = [], []
     for i, time in enumerate(times):
         if i:
-            loads = [(press.with_force(f),) for f in (force[i - 1], force[i])]
-            state = model.step(state, *loads, time - times[i - 1])
+            before, after = (press.with_force(force[i - 1]),), (press.with_force(force[i]),)
+            state = model.step(state, before, after, time - times[i - 1])
         seen = surface(model, state, points=POINTS, layers=model.layer_names[:1])
         heights.append(seen.displacement[model.layer_names[0]][2])
         depths.append([-model.displacement(state, centre, layer)[0, 2] for layer in model.layer_names])
     return Film(
         time=times,
         force=force,
-        x=seen.x,
-        y=seen.y,
+        x=np.linspace(0.0, model.size[0], POINTS),
+        y=np.linspace(0.0, model.size[1], POINTS),
         height=np.array(heights),
         depth=dict(zip(model.layer_names, np.array(depths).T, strict=True)),
     )

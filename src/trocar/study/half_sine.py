@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 
 import numpy as np
@@ -12,10 +13,14 @@ from trocar.study.models import AnyModel
 DURATION = 0.02  # [s] of the press
 AFTER = 0.02  # [s] watched when it is over
 SAMPLE = 5e-4  # [s]; the force is linear in between
-_SUBSTEPS = 2  # per sample: 0.25 ms, a 160th of the period of the press, for the implicit model; the waves need none
+_SUBSTEPS = (
+    2  # per sample: 0.25 ms, a 160th of the period of the press, for the implicit model; the waves need none
+)
 
 
-def half_sine(models: Mapping[str, AnyModel], press: Press, layer: str | None = None) -> dict[str, FloatArray]:
+def half_sine(
+    models: Mapping[str, AnyModel], press: Press, layer: str | None = None
+) -> dict[str, FloatArray]:
     """Return the deflection under the middle of the tool.
 
     Args:
@@ -33,9 +38,9 @@ def half_sine(models: Mapping[str, AnyModel], press: Press, layer: str | None = 
     for name, model in models.items():
         steps = _SUBSTEPS
         state, depths = model.init(), [0.0]
-        for f0, f1 in zip(forces[:-1], forces[1:], strict=True):
+        for f0, f1 in itertools.pairwise(forces):
             marks = np.linspace(f0, f1, steps + 1)
-            for g0, g1 in zip(marks[:-1], marks[1:], strict=True):
+            for g0, g1 in itertools.pairwise(marks):
                 state = model.step(state, (press.with_force(g0),), (press.with_force(g1),), SAMPLE / steps)
             depths.append(-model.displacement(state, under, layer)[0, 2])
         curves[name] = np.array(depths)

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import process_time
 
 import numpy as np
 
-from trocar.model import FloatArray
+from trocar.model import FloatArray, State
 from trocar.study.deflection import deflections, search_points
 from trocar.study.experiment import Case
+from trocar.study.linear_range import LinearRange, linear_range
 from trocar.study.models import AnyModel
 
 Progress = Callable[[float], None]
@@ -30,6 +32,7 @@ class History:
         cpu_seconds: processor time of building the model and of all samples [s].
         setup_seconds: the part of it spent before the first sample [s].
         dofs: unknowns solved for.
+        linear_range: how far the largest load of all tools together lies from the end of the linear range.
     """
 
     model: str
@@ -39,6 +42,7 @@ class History:
     cpu_seconds: float
     setup_seconds: float
     dofs: int
+    linear_range: LinearRange
 
     @property
     def block(self) -> FloatArray:
@@ -47,7 +51,9 @@ class History:
         return result
 
 
-def run(case: Case, name: str, build: Callable[[Case], AnyModel], progress: Progress = lambda _: None) -> History:
+def run(
+    case: Case, name: str, build: Callable[[Case], AnyModel], progress: Progress = lambda _: None
+) -> History:
     """Run a case through a model.
 
     Args:
@@ -61,19 +67,24 @@ def run(case: Case, name: str, build: Callable[[Case], AnyModel], progress: Prog
     times = case.sample_times()
     layers = case.tissue.layer_names
     follow = _moving if case.sampling.dynamic else _quasi_static
-    depths, setup = follow(case, model, times, progress)
+    depths, setup, furthest = follow(case, model, times, progress)
+    done = process_time()
+    peaks = tuple(tool.press(tool.peak) for tool in case.tools)
     return History(
         model=name,
         time=times,
         force=np.array([sum(press.force for press in case.load_at(t)) for t in times]),
         deflection=dict(zip(layers, depths, strict=True)),
-        cpu_seconds=process_time() - began,
+        cpu_seconds=done - began,
         setup_seconds=setup - began,
         dofs=model.dofs,
+        linear_range=linear_range(model, case.tissue, peaks, furthest),
     )
 
 
-def _quasi_static(case: Case, model: AnyModel, times: FloatArray, progress: Progress) -> tuple[FloatArray, float]:
+def _quasi_static(
+    case: Case, model: AnyModel, times: FloatArray, progress: Progress
+) -> tuple[FloatArray, float, None]:
     """Superpose each tool's response to 1 N: the models are linear, so equilibria add and scale."""
     load = case.load_at(0.0)
     points = search_points(case.size, load)
@@ -85,25 +96,32 @@ def _quasi_static(case: Case, model: AnyModel, times: FloatArray, progress: Prog
     setup = process_time()
     forces = np.array([[press.force for press in case.load_at(t)] for t in times])
     if len(units) == 1:
-        return np.outer(units[0].max(axis=1), forces[:, 0]), setup
+        return np.outer(units[0].max(axis=1), forces[:, 0]), setup, None
     depths = np.empty((len(layers), len(times)))
     for i, at in enumerate(forces):
         depths[:, i] = np.tensordot(at, np.stack(units), 1).max(axis=1)
-    return depths, setup
+    return depths, setup, None
 
 
-def _moving(case: Case, model: AnyModel, times: FloatArray, progress: Progress) -> tuple[FloatArray, float]:
+def _moving(
+    case: Case, model: AnyModel, times: FloatArray, progress: Progress
+) -> tuple[FloatArray, float, State]:
+    """Step through the load; return the state of the largest deflection too."""
     points = search_points(case.size, case.load_at(0.0))
     layers = case.tissue.layer_names
-    state = model.init()
-    longest = np.inf if hasattr(model, "oscillators") else max(_IMPLICIT_STEP, case.duration / _MOST_IMPLICIT_STEPS)
+    state = furthest = model.init()
+    longest = (
+        np.inf if hasattr(model, "oscillators") else max(_IMPLICIT_STEP, case.duration / _MOST_IMPLICIT_STEPS)
+    )
     depths = np.zeros((len(layers), len(times)))
     setup = process_time()
-    for i, (start, end) in enumerate(zip(times[:-1], times[1:], strict=True)):
+    for i, (start, end) in enumerate(itertools.pairwise(times)):
         count = max(1, int(np.ceil((end - start) / longest - 1e-9)))
         marks = np.linspace(start, end, count + 1)
-        for t0, t1 in zip(marks[:-1], marks[1:], strict=True):
+        for t0, t1 in itertools.pairwise(marks):
             state = model.step(state, case.load_at(t0), case.load_at(t1), t1 - t0)
         depths[:, i + 1] = deflections(model, state, points, layers).max(axis=1)
+        if depths[:, i + 1].max() > depths[:, : i + 1].max():
+            furthest = state
         progress((i + 1) / (len(times) - 1))
-    return depths, setup
+    return depths, setup, furthest

@@ -57,8 +57,7 @@ class LinearRange:
         inside: whether all four lie within their thresholds.
         limiting: the measure closest to its threshold, or furthest beyond it: "strain", "deflection_share",
             "slope" or "stretching".
-        force_limit: the largest press's force at which the limiting measure meets its threshold [N], all
-        presses
+        force_limit: the largest press's force at which the limiting measure meets its threshold [N], all presses
             growing together.
     """
 
@@ -78,8 +77,7 @@ class Samples:
     Args:
         x, y: places [m], ascending, shapes (n,) and (m,), at least 3 each; they span the block.
         vertical: u_z of the upper face of every layer, top first [m], shape (layers, n, m).
-        base_held: whether the lower face of the lowest layer cannot move. If it can, no model tells how much,
-        and
+        base_held: whether the lower face of the lowest layer cannot move. If it can, no model tells how much, and
             the compression of the lowest layer is left out; the deflection share stands in for it.
         work: the energy linear theory stores, half of force times deflection added over the presses [J],
             above 0.
@@ -94,24 +92,24 @@ class Samples:
     force: float
 
 
-def linear_range(model: TissueModel[S], load: Load, state: S | None = None) -> LinearRange:
+def linear_range(model: TissueModel[S], tissue: Tissue, load: Load, state: S | None = None) -> LinearRange:
     """Judge a linear model's answer to a load.
 
     Args:
         model: linear.
+        tissue: its layers.
         load: presses; at least one with a force other than 0.
-        state: of the model, where it is not the equilibrium under the load, such as the moment of largest
-        deflection
+        state: of the model, where it is not the equilibrium under the load, such as the moment of largest deflection
             of a moving block. The measures are then this state's; the force limit stays that of a slow load.
 
     Raises:
         InputError: the load is empty, or no press has a force.
     """
-    still = judged(model.tissue, sampled(model, load))
+    still = judged(tissue, sampled(model, load))
     if state is None:
         return still
     samples = sampled(model, load, state)
-    moving = _measures(model.tissue, samples)
+    moving = _measures(tissue, samples)
     # A moving block's energy is not its load's work: stretching grows as the square of the deflection.
     moving["stretching"] = still.stretching * (moving["deflection_share"] / still.deflection_share) ** 2
     return _verdict(moving, still.force_limit)
@@ -156,10 +154,7 @@ def sampled(model: TissueModel[S], load: Load, state: S | None = None) -> Sample
     )
     points = np.stack([*np.meshgrid(x, y, indexing="ij"), np.zeros((len(x), len(y)))], axis=-1).reshape(-1, 3)
     vertical = np.stack(
-        [
-            model.displacement(state, points, name)[:, 2].reshape(len(x), len(y))
-            for name in model.tissue.layer_names
-        ]
+        [model.displacement(state, points, name)[:, 2].reshape(len(x), len(y)) for name in model.layer_names]
     )
     work = 0.0
     for press in load:

@@ -45,7 +45,9 @@ class Plan:
 
     def __post_init__(self) -> None:
         if not 0 < self.small <= self.peak:
-            raise InputError("study: small force", f"above 0 and at most the peak, {self.peak:g} N", self.small)
+            raise InputError(
+                "study: small force", f"above 0 and at most the peak, {self.peak:g} N", self.small
+            )
 
     def central(self, peak: float, support: Support | None = None) -> Case:
         """Return the paper's load with another peak [N] in the middle of the block."""
@@ -65,7 +67,9 @@ class Plan:
         """Return a tap of 20 ms and the rest after it."""
         tool = replace(self._tool(self.small), rate=self.small / TAP)
         case = self._case("a tap of 20 ms", (tool,))
-        return replace(case, sampling=replace(case.sampling, period=TAP / (10 if self.quick else 20), dynamic=True))
+        return replace(
+            case, sampling=replace(case.sampling, period=TAP / (10 if self.quick else 20), dynamic=True)
+        )
 
     def _tool(self, peak: float) -> Tool:
         a, b = BLOCK

@@ -5,6 +5,7 @@ from __future__ import annotations
 import platform
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from importlib.metadata import version
 from time import perf_counter
 
 import numpy as np
@@ -108,7 +109,9 @@ def run_study(plan: Plan, watch: Watch = lambda _what, _share: None) -> Study:
     for i, support in enumerate(Support):
         watch(f"support {support.value}", 0.1 + 0.05 * i)
         same = support is plan.support
-        supports[support] = small if same else compare(plan.central(plan.small, support), (*JUDGED, REFERENCE))
+        supports[support] = (
+            small if same else compare(plan.central(plan.small, support), (*JUDGED, REFERENCE))
+        )
     watch("tool at an angle", 0.25)
     tilted = compare(plan.tilted(), (MODEL, REFERENCE))
     watch("two tools", 0.35)
@@ -181,7 +184,7 @@ def _numerics(plan: Plan) -> dict[str, Numerics]:
         return FEASolid(case.tissue, size=case.size, support=case.support, around=load, mesh=mesh)
 
     def model(size: float) -> AnyModel:
-        modes = int(round(128 / size))
+        modes = round(128 / size)
         return WaveSolid(case.tissue, size=case.size, support=case.support, modes=(modes, modes))
 
     points = search_points(case.size, load)
@@ -195,7 +198,7 @@ def _numerics(plan: Plan) -> dict[str, Numerics]:
     by_modes = np.array([depth(model(size)) for size in sizes])
     table = {}
     for i, layer in enumerate(layers):
-        one, two = refinement(by_mesh[:, i], sizes), refinement(by_modes[:, i], sizes)
+        one, two = refinement(by_mesh[:, i].tolist(), sizes), refinement(by_modes[:, i].tolist(), sizes)
         difference = validation(
             float(by_modes[-1, i]), float(by_mesh[-1, i]), one.standard_uncertainty, two.standard_uncertainty
         )
@@ -224,16 +227,9 @@ def _surface(case: Case) -> Surface:
 
 
 def _machine() -> dict[str, str]:
-    import numba
-    import scipy
-    import skfem
-
     return {
         "processor": platform.processor() or platform.machine(),
         "system": f"{platform.system()} {platform.machine()}",
         "python": platform.python_version(),
-        "numpy": np.__version__,
-        "scipy": scipy.__version__,
-        "numba": numba.__version__,
-        "scikit-fem": skfem.__version__,
+        **{package: version(package) for package in ("numpy", "scipy", "numba", "scikit-fem")},
     }

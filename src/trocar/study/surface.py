@@ -25,7 +25,9 @@ class Surface:
     displacement: dict[str, FloatArray]
 
 
-def surface(model: TissueModel[Any], state: Any, *, points: int = 61, layers: tuple[str, ...] = ()) -> Surface:
+def surface(
+    model: TissueModel[Any], state: Any, *, points: int = 61, layers: tuple[str, ...] = ()
+) -> Surface:
     """Sample the faces of a model.
 
     Args:

@@ -27,11 +27,15 @@ def surface_compliance(layers: ThinLayers, at: Wavenumbers) -> FloatArray:
     Raises:
         SolverError: a stiffness matrix is not positive definite.
     """
-    bands = [_banded(part, layers.components) for part in _parts(layers)]
+    constant, linear, quadratic, taut_x, taut_y = (
+        _banded(part, layers.components) for part in _parts(layers)
+    )
     faces = np.array(layers.faces)
     result = np.empty((len(at.k), len(faces), layers.components, layers.components))
-    if not _solve(*bands, at.k, at.kx2, at.ky2, faces, result):
-        raise SolverError("layered tissue: expected a positive definite stiffness; check moduli, thicknesses and support")
+    if not _solve(constant, linear, quadratic, taut_x, taut_y, at.k, at.kx2, at.ky2, faces, result):
+        raise SolverError(
+            "layered tissue: expected a positive definite stiffness; check moduli, thicknesses and support"
+        )
     return result
 
 

@@ -93,7 +93,9 @@ def measured_cutoff(
     kx = pi / size[0] * np.arange(1, rows + 1)
     ky = pi / size[1] * np.arange(1, columns + 1)
     if min(kx[-1], ky[-1]) < rule:
-        raise InputError("cut-off: modes", f"waves up to {rule:.4g} [1/m] along both sides", min(kx[-1], ky[-1]))
+        raise InputError(
+            "cut-off: modes", f"waves up to {rule:.4g} [1/m] along both sides", min(kx[-1], ky[-1])
+        )
     k = np.hypot(kx[:, None], ky[None, :]).ravel()
     order = np.argsort(k)[::-1]
     share = np.abs(compliance.reshape(-1, layers) * transform(profile, radius * k)[:, None])[order]

@@ -17,7 +17,9 @@ from scipy.linalg import schur, solve_sylvester
 from trocar.errors import SolverError
 from trocar.model import FloatArray
 
-_PROPORTIONAL = 1e-11  # off-diagonal damping relative to the diagonal: below it is rounding of the eigenvectors
+_PROPORTIONAL = (
+    1e-11  # off-diagonal damping relative to the diagonal: below it is rounding of the eigenvectors
+)
 _ILL_CONDITIONED = 1e2  # eigenvalue condition c: inverting the eigenvectors loses c^2, 1e-12 here
 _RESIDUAL = 1e-9  # of the rebuilt system matrix; more means poles that met in a way not foreseen here
 
@@ -51,7 +53,9 @@ def decouple(mass: FloatArray, damping: FloatArray, stiffness: FloatArray) -> Bl
     try:
         lower = np.linalg.cholesky(mass)
     except np.linalg.LinAlgError as error:
-        raise SolverError("mass matrix: expected positive definite; check densities and thicknesses") from error
+        raise SolverError(
+            "mass matrix: expected positive definite; check densities and thicknesses"
+        ) from error
     inverse = np.linalg.inv(lower)
     squares, vectors = np.linalg.eigh(_congruent(inverse, stiffness))
     if not (squares > 0).all():
@@ -93,8 +97,10 @@ def _is_diagonal(matrices: FloatArray) -> np.ndarray:
     return result
 
 
-def _fill_undamped_modes(blocks: Blocks, where: np.ndarray, frequency: FloatArray, damping: FloatArray) -> None:
-    """x = (w q, q'): A = [[0, w], [-w, -c]], so that an undamped step is a rotation."""
+def _fill_undamped_modes(
+    blocks: Blocks, where: np.ndarray, frequency: FloatArray, damping: FloatArray
+) -> None:
+    """X = (w q, q'): A = [[0, w], [-w, -c]], so that an undamped step is a rotation."""
     w = frequency[where]
     order = w.shape[-1]
     blocks.matrices[where, :, 0, 1] = w
@@ -110,7 +116,9 @@ def _fill_undamped_modes(blocks: Blocks, where: np.ndarray, frequency: FloatArra
     blocks.exit[where] = leave
 
 
-def _fill_complex_modes(blocks: Blocks, where: np.ndarray, frequency: FloatArray, damping: FloatArray) -> None:
+def _fill_complex_modes(
+    blocks: Blocks, where: np.ndarray, frequency: FloatArray, damping: FloatArray
+) -> None:
     w = frequency[where]
     order = w.shape[-1]
     system = np.zeros((w.shape[0], 2 * order, 2 * order))
@@ -139,7 +147,9 @@ def _fill_complex_modes(blocks: Blocks, where: np.ndarray, frequency: FloatArray
         blocks.exit[place] = columns[:order]
 
 
-def _pair(poles: np.ndarray, right: np.ndarray, left: np.ndarray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _pair(
+    poles: np.ndarray, right: np.ndarray, left: np.ndarray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return real blocks (n, 2, 2), their columns (2n, n, 2) and rows (n, 2, 2n): sum of columns A rows = system."""
     size = len(poles)
     matrices = np.zeros((size // 2, 2, 2))
@@ -193,7 +203,9 @@ def _pair_with_double_pole(
     )
 
 
-def _in_amplitudes(blocks: Blocks, shapes: FloatArray, projector: FloatArray, frequency: FloatArray) -> Blocks:
+def _in_amplitudes(
+    blocks: Blocks, shapes: FloatArray, projector: FloatArray, frequency: FloatArray
+) -> Blocks:
     """Turn entry and exit from energy coordinates (w q, q') into amplitudes."""
     order = shapes.shape[-1]
     scaled = projector * frequency[..., :, None]

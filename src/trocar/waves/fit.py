@@ -25,15 +25,17 @@ from trocar.tissues.layer import Layer
 from trocar.tissues.tissue import Tissue
 from trocar.waves.footprint import transform
 from trocar.waves.series import Series
-from trocar.waves.stack import Coupling, Sheet, Stack, derived_stack
+from trocar.waves.stack import Coupling, Stack, derived_stack
 from trocar.waves.thin_layer import ThinLayers, Wavenumbers, vertical_and_along
 
 RADII = (2.5e-3, 3e-3, 4e-3, 6e-3)  # [m] tools of 5, 6, 8 and 12 mm
 _MODES = 63  # highest odd mode: a flat 5 mm tool's peak within 0.1 %
 _STATIONS = (0.0, 0.5, 1.0, 1.5, 2.5)  # where the profile is matched, in tool radii from the centre
 _LOG_RANGE = 14.0  # coefficients stay within e^14 of their derived values
-_LOG_STIFFER = 3.0  # a bed stays below e^3 of its derived stiffness, which is already that of no give sideways
-_SLOWER = 10.0  # times the slowest layer's retardation time: the most a sheet or bed is given
+_LOG_STIFFER = (
+    3.0  # a bed stays below e^3 of its derived stiffness, which is already that of no give sideways
+)
+_SLOWER = 3.0  # times the slowest layer's retardation time: the most a sheet or bed is given
 
 
 @dataclass(frozen=True)
@@ -88,7 +90,8 @@ def _target(tissue: Tissue, size: tuple[float, float], support: Support) -> _Tar
         # At the centre every odd sine is +-1 and its square 1; the profile runs along x.
         weight = 4 / (a * b) * transform(Profile.FLAT, k * radius)
         rows += [
-            np.bincount(places, weight * np.cos(kx * radius * station), minlength=len(first)) for station in _STATIONS
+            np.bincount(places, weight * np.cos(kx * radius * station), minlength=len(first))
+            for station in _STATIONS
         ]
     return _Target(at, compliance, damping, inertia, np.array(rows))
 
@@ -100,7 +103,7 @@ def _moments(layers: ThinLayers, at: Wavenumbers) -> tuple[FloatArray, FloatArra
     faces = [layers.unknown(layer, 0) for layer in range(len(layers.faces))]
     damping = np.einsum("ja,jab,jb->j", response, layers.damping(at), response)
     inertia = np.einsum("ja,ab,jb->j", response, layers.mass, response)
-    return response[:, faces], damping, inertia
+    return np.asarray(response[:, faces], dtype=np.float64), np.asarray(damping), np.asarray(inertia)
 
 
 def _fit_static(tissue: Tissue, target: _Target, support: Support) -> Stack:

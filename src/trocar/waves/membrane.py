@@ -83,7 +83,9 @@ class WaveMembrane:
         modes: tuple[int, int] = (48, 48),
     ) -> WaveMembrane:
         """Build one with coefficients fitted to `WaveSolid`'s response (see `fit`)."""
-        return cls(fitted_stack(tissue, size=size, support=Support(support)), size=size, modes=modes, support=support)
+        return cls(
+            fitted_stack(tissue, size=size, support=Support(support)), size=size, modes=modes, support=support
+        )
 
     @property
     def modes(self) -> tuple[int, int]:
@@ -163,15 +165,13 @@ class WaveMembrane:
         density = np.einsum("ja,jab,jb->j", rate, self._mass, rate)
         density += np.einsum("ja,jab,jb->j", amplitude, self._stiffness, amplitude)
         a, b = self.size
-        energy: FloatArray = (0.5 * density * a * b / 4).reshape(self.modes)
-        return energy
+        return np.asarray(0.5 * density * a * b / 4, dtype=np.float64).reshape(self.modes)
 
     def static_compliance(self) -> FloatArray:
         """Return each face's amplitude per unit pressure amplitude on top [m/Pa], shape (M, N, layers)."""
         top = np.zeros((*self._stiffness.shape[:2], 1))
         top[:, 0] = 1.0
-        table: FloatArray = np.linalg.solve(self._stiffness, top)[..., 0].reshape(*self.modes, -1)
-        return table
+        return np.asarray(np.linalg.solve(self._stiffness, top), dtype=np.float64).reshape(*self.modes, -1)
 
     def modal_forces(self, load: Load) -> FloatArray:
         """Return the load's integrals against the modes [N], shape (M N,), n fastest."""

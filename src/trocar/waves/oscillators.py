@@ -38,12 +38,19 @@ class Oscillators:
 
     @classmethod
     def of(
-        cls, mass: FloatArray, damping: FloatArray, stiffness: FloatArray, forcing: FloatArray, reading: FloatArray
+        cls,
+        mass: FloatArray,
+        damping: FloatArray,
+        stiffness: FloatArray,
+        forcing: FloatArray,
+        reading: FloatArray,
     ) -> Oscillators:
         """Build them from M q'' + C q' + K q = forcing f, y = reading q.
 
         Args:
-            mass, damping, stiffness: shape (J, r, r).
+            mass: shape (J, r, r).
+            damping: shape (J, r, r).
+            stiffness: shape (J, r, r).
             forcing: shape (J, r, n).
             reading: shape (J, k, r).
 

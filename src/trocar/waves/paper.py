@@ -32,7 +32,9 @@ def printed_membrane() -> WaveMembrane:
     """
     table = paper_table()
     side = table["side"].si
-    prestress = np.hypot(table["prestress_along"].value, table["prestress_across"].value)  # [MPa], as plain numbers
+    prestress = np.hypot(
+        table["prestress_along"].value, table["prestress_across"].value
+    )  # [MPa], as plain numbers
     sheet = Sheet(
         name="dermis",
         tension_x=prestress * side,

@@ -38,21 +38,21 @@ class Series:
     modes: tuple[int, int]
 
     def __post_init__(self) -> None:
-        if len(self.size) != 2 or not all(np.isfinite(side) and side > 0 for side in self.size):
+        if not all(np.isfinite(side) and side > 0 for side in self.size):
             raise InputError("size", "two lengths above 0 [m]", self.size)
-        if len(self.modes) != 2 or not all(isinstance(m, (int, np.integer)) and m > 0 for m in self.modes):
+        if not all(m > 0 for m in self.modes):
             raise InputError("modes", "two integers above 0", self.modes)
 
     @cached_property
     def kx(self) -> FloatArray:
         """Wavenumbers along x [1/m], shape (M + 1,)."""
-        result: FloatArray = np.pi / self.size[0] * np.arange(self.modes[0] + 1)
+        result: FloatArray = np.arange(self.modes[0] + 1, dtype=np.float64) * (np.pi / self.size[0])
         return result
 
     @cached_property
     def ky(self) -> FloatArray:
         """Wavenumbers along y [1/m], shape (N + 1,)."""
-        result: FloatArray = np.pi / self.size[1] * np.arange(self.modes[1] + 1)
+        result: FloatArray = np.arange(self.modes[1] + 1, dtype=np.float64) * (np.pi / self.size[1])
         return result
 
     def vertical(self, table: FloatArray, points: FloatArray) -> FloatArray:
@@ -97,7 +97,9 @@ class Series:
         y, weight_y = _gauss_panels(self.size[1], self.modes[1])
         values = np.broadcast_to(np.asarray(field(x[:, None], y[None, :]), dtype=float), (len(x), len(y)))
         if not np.isfinite(values).all():
-            raise InputError("initial field", "finite values on the whole block", values[~np.isfinite(values)][0])
+            raise InputError(
+                "initial field", "finite values on the whole block", values[~np.isfinite(values)][0]
+            )
         sin_x = np.sin(np.outer(self.kx, x)) * weight_x
         sin_y = np.sin(np.outer(y, self.ky)) * weight_y[:, None]
         a, b = self.size

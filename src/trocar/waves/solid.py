@@ -65,6 +65,7 @@ class WaveSolid:
         self._compliance_wv = np.full((*shape, 2, 2), np.nan)
         self._compliance_s = np.full((*shape, 1, 1), np.nan)
         self._unit_response = lru_cache(maxsize=8)(self._response_to_unit_press)
+        self._unit_polarised = lru_cache(maxsize=16)(lambda press: _polarised(press, self._moving))
 
     @cached_property
     def _layers_wv(self) -> ThinLayers:
@@ -198,19 +199,15 @@ class WaveSolid:
         shapes: FloatArray = (along_x[:, :, None] * along_y[:, None, :]).reshape(len(points), -1)
         return shapes
 
-    @cached_property
-    def _unit_polarised(self):  # type: ignore[no-untyped-def]
-        return lru_cache(maxsize=16)(lambda press: _polarised(press, self._moving))
-
     def _moving_amplitudes(self, state: WaveState, face: int) -> FloatArray:
         rows, columns = self._moving.kx.size, self._moving.ky.size
         kx, ky = _directions(self._moving)
         w, v = np.zeros((rows, columns)), np.zeros((rows, columns))
         read = self.oscillators_wv.read(state.oscillators[0]).reshape(rows - 1, columns - 1, -1, 2)
         w[1:, 1:], v[1:, 1:] = read[:, :, face, 0], read[:, :, face, 1]
-        s = np.zeros(rows * columns)
-        s[1:] = self.oscillators_s.read(state.oscillators[1])[:, face]
-        s = s.reshape(rows, columns)
+        aside = np.zeros(rows * columns)
+        aside[1:] = self.oscillators_s.read(state.oscillators[1])[:, face]
+        s = aside.reshape(rows, columns)
         return np.stack([kx[..., 0] * v - ky[..., 0] * s, ky[..., 0] * v + kx[..., 0] * s, w])
 
 
@@ -222,7 +219,9 @@ def _directions(series: Series) -> tuple[FloatArray, FloatArray]:
     return kx / k, ky / k
 
 
-def _polarised(press: Press, series: Series) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+def _polarised(
+    press: Press, series: Series
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
     """Return the traction's amplitudes [Pa] across, along and beside each wave vector, and the directions."""
     forces = modal_forces(press, series)
     a, b = series.size

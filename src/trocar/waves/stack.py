@@ -148,4 +148,6 @@ def _shear_tension(layer: Layer) -> float:
 
 def _require(where: str, value: float, *, at_least_zero: bool = False) -> None:
     if not (isfinite(value) and (value >= 0 if at_least_zero else value > 0)):
-        raise InputError(where, "a finite number, 0 or above" if at_least_zero else "a finite number above 0", value)
+        raise InputError(
+            where, "a finite number, 0 or above" if at_least_zero else "a finite number above 0", value
+        )

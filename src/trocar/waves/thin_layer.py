@@ -15,6 +15,7 @@ Unknowns run from the base up, so that the tool's force is the last of them.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
@@ -24,6 +25,7 @@ from trocar.model import FloatArray
 from trocar.tissues.layer import Layer
 from trocar.tissues.tissue import Tissue
 
+Element = Callable[[Layer, float], tuple[FloatArray, FloatArray, FloatArray, FloatArray]]
 _GROWTH = 0.5  # element length over its depth below the surface: a wave k dies as exp(-k depth)
 _TOP = 0.6  # first element as a share of the top layer where that is thin
 _PER_LAYER = 5  # elements through the thickest layer at least: waves inside it
@@ -126,7 +128,10 @@ def element_lengths(tissue: Tissue) -> list[FloatArray]:
     return lengths
 
 
-def _assemble(tissue: Tissue, element, components: int, *, base_held: bool, refinement: int) -> ThinLayers:  # type: ignore[no-untyped-def]
+def _assemble(
+    tissue: Tissue, element: Element, components: int, *, base_held: bool, refinement: int
+) -> ThinLayers:
+
     upward = [np.repeat(own / refinement, refinement)[::-1] for own in reversed(element_lengths(tissue))]
     layers = tissue.layers[::-1]
     elements = [(place, length) for place, own in enumerate(upward) for length in own]

@@ -112,7 +112,9 @@ def make_tick(
     ky = pi / model.size[1] * np.arange(1, columns + 1)
     m, n = np.nonzero(kx[:, None] ** 2 + ky[None, :] ** 2 <= cutoff**2)
     if not len(m):
-        raise InputError("tick: cutoff", f"at least {np.hypot(kx[0], ky[0]):.4g} [1/m], the longest wave", cutoff)
+        raise InputError(
+            "tick: cutoff", f"at least {np.hypot(kx[0], ky[0]):.4g} [1/m], the longest wave", cutoff
+        )
     parts, strip = np.unique(np.stack([m, n // STRIP]), axis=1, return_inverse=True)
     strip = strip.ravel()
     longest = np.zeros(parts.shape[1], dtype=np.int64)
@@ -124,7 +126,8 @@ def make_tick(
     gain = np.einsum("jrab,jrb->jra", transition, end) + step.start_gain[kept, ..., 0]
     turn = np.concatenate([transition.reshape(len(kept), order, 4), gain], axis=2)
     read = np.concatenate(
-        [outputs.reshape(len(kept), layers, 2 * order), np.einsum("jkri,jri->jk", outputs, end)[..., None]], axis=2
+        [outputs.reshape(len(kept), layers, 2 * order), np.einsum("jkri,jri->jk", outputs, end)[..., None]],
+        axis=2,
     )
     table = np.concatenate([turn.reshape(len(kept), -1), read.reshape(len(kept), -1)], axis=1)
     planes = np.zeros((parts.shape[1], table.shape[1], STRIP))
