@@ -9,23 +9,21 @@ from trocar.model import Load, Support
 from trocar.reference.assembly import stiffness
 from trocar.reference.footprint import footprint_points
 from trocar.reference.mesh import Bricks
+from trocar.reference.parity import mirrored_lines
 from trocar.tissues import Layer
 
 
 def mirrored(quarter: Bricks, size: tuple[float, float]) -> Bricks:
     """Mirror the mesh of a quarter to that of the block."""
-    x, y = (
-        np.concatenate([lines, (side - lines[:-1])[::-1]])
-        for lines, side in zip((quarter.x, quarter.y), size, strict=True)
-    )
+    x, y = (mirrored_lines(lines, side) for lines, side in zip((quarter.x, quarter.y), size, strict=True))
     return Bricks(x=x, y=y, z=quarter.z, slab_layer=quarter.slab_layer)
 
 
-def forces(bricks: Bricks, size: tuple[float, float], load: Load) -> np.ndarray:
+def forces(bricks: Bricks, load: Load) -> np.ndarray:
     """Nodal forces [N], shape (3, nodes)."""
     total = np.zeros(bricks.nodes.shape)
     for press in load:
-        points, share = footprint_points(press, size)
+        points, share = footprint_points(press, bricks.x, bricks.y)
         nodes, weights = bricks.interpolation(points, len(bricks.z) - 1)
         spread = np.bincount(nodes.ravel(), (weights * share).ravel(), minlength=bricks.nodes.shape[1])
         total += np.outer(press.force_vector, spread)
@@ -52,5 +50,5 @@ def solve(
     free = np.flatnonzero(~held(bricks.nodes, size, support).ravel())
     matrix = stiffness(bricks, layers)[free][:, free].tocsc()
     displacement = np.zeros(bricks.nodes.size)
-    displacement[free] = sla.spsolve(matrix, forces(bricks, size, load).ravel()[free])
+    displacement[free] = sla.spsolve(matrix, forces(bricks, load).ravel()[free])
     return displacement.reshape(3, -1)

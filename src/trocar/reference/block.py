@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
 from trocar.errors import InputError
-from trocar.model import FloatArray, Load, Support
+from trocar.model import FloatArray, Load, Press, Profile, Support
 from trocar.reference.footprint import half_extent, require_on_block
 from trocar.reference.mesh import Bricks, Spacing, graded_lines
 from trocar.tissues import Tissue
+
+_GAUSSIAN_WIDTH = 0.6  # of its radius, two standard deviations: most of its force is nearer the centre
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,10 +21,11 @@ class MeshSize:
     """How finely a block is meshed; the defaults are measured by `bench/fea_convergence.py`.
 
     Args:
-        per_radius: elements along a footprint's half width [1].
+        per_radius: elements along a footprint's half width [1]; along 0.6 of it for a Gaussian.
         growth: by how much elements grow per distance from the footprint [m/m].
         top: height of an element at the top face, in half widths of the smallest footprint [1].
         deepening: by how much elements grow per depth [m/m].
+        side: length of an element at a clamped side, in half widths of the smallest footprint [1].
         refinement: how many times every element is split in two along every direction.
 
     Raises:
@@ -29,13 +33,14 @@ class MeshSize:
     """
 
     per_radius: float = 3.0
-    growth: float = 0.5
+    growth: float = 0.4
     top: float = 0.2
-    deepening: float = 0.5
+    deepening: float = 0.35
+    side: float = 0.15
     refinement: int = 0
 
     def __post_init__(self) -> None:
-        for key in ("per_radius", "growth", "top", "deepening"):
+        for key in ("per_radius", "growth", "top", "deepening", "side"):
             value = getattr(self, key)
             if not (np.isfinite(value) and value > 0):
                 raise InputError(f"mesh: {key}", "a finite number above 0", value)
@@ -43,12 +48,15 @@ class MeshSize:
             raise InputError("mesh: refinement", "0, 1, 2, 3 or 4", self.refinement)
 
 
-def quarter_mesh(tissue: Tissue, size: tuple[float, float], around: Load, mesh: MeshSize) -> Bricks:
+def quarter_mesh(
+    tissue: Tissue, size: tuple[float, float], support: Support, around: Load, mesh: MeshSize
+) -> Bricks:
     """Mesh the quarter 0 <= x <= a/2, 0 <= y <= b/2 of a block.
 
     Args:
         tissue: the layers.
         size: sides a, b of the block [m].
+        support: how the block is held; a clamped side needs short elements.
         around: presses whose footprints are resolved, mirrored into the quarter; at least one.
         mesh: how finely.
 
@@ -57,19 +65,27 @@ def quarter_mesh(tissue: Tissue, size: tuple[float, float], around: Load, mesh: 
     """
     for press in around:
         require_on_block(press, size)
+    smallest = min(min(_resolved(press)) for press in around)
+    clamped = mesh.side * smallest if support.sides_clamped else inf
     x, y = (
-        graded_lines(0.0, 0.5 * side, _around(side, around, axis, mesh), mesh.refinement)
+        graded_lines(0.0, 0.5 * side, _along(side, around, axis, clamped, mesh), mesh.refinement)
         for axis, side in enumerate(size)
     )
-    smallest = min(min(half_extent(press)) for press in around)
     z, slab_layer = _through(tissue, smallest, mesh)
     return Bricks(x=x, y=y, z=z, slab_layer=slab_layer)
 
 
-def _around(side: float, around: Load, axis: int, mesh: MeshSize) -> Spacing:
+def _resolved(press: Press) -> tuple[float, float]:
+    """Half the width along x and y that the mesh has to resolve [m]."""
+    narrow = _GAUSSIAN_WIDTH if press.profile is Profile.GAUSSIAN else 1.0
+    x, y = half_extent(press)
+    return narrow * x, narrow * y
+
+
+def _along(side: float, around: Load, axis: int, clamped: float, mesh: MeshSize) -> Spacing:
     spans = []
     for press in around:
-        centre, half = (press.x, press.y)[axis], half_extent(press)[axis]
+        centre, half = (press.x, press.y)[axis], _resolved(press)[axis]
         folded = min(centre, side - centre)
         spans.append((folded, half))
 
@@ -78,7 +94,7 @@ def _around(side: float, around: Load, axis: int, mesh: MeshSize) -> Spacing:
             half / mesh.per_radius + mesh.growth * np.maximum(np.abs(places - folded) - half, 0.0)
             for folded, half in spans
         ]
-        return np.asarray(np.min(wished, axis=0))
+        return np.asarray(np.min([*wished, clamped + mesh.growth * places], axis=0))
 
     return spacing
 

@@ -17,7 +17,7 @@ import numpy as np
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
 from trocar.reference.block import MeshSize, quarter_mesh
-from trocar.reference.forces import nodal_forces
+from trocar.reference.forces import NodalForces
 from trocar.reference.mesh import Bricks
 from trocar.reference.parity import QUARTERS, Parity, fold, mirror_signs, quarter_fields
 from trocar.reference.quarter import QuarterSystem
@@ -66,8 +66,9 @@ class FEASolid:
         self.solver_name = choose_solver(solver)
         a, b = self._size
         self._around = around or (Press(x=a / 2, y=b / 2, radius=_DEFAULT_RADIUS * min(a, b), force=1.0),)
-        bricks = quarter_mesh(tissue, self._size, self._around, mesh or MeshSize())
+        bricks = quarter_mesh(tissue, self._size, self._support, self._around, mesh or MeshSize())
         self._system = QuarterSystem(bricks, tissue, self._support, self.solver_name)
+        self._nodal_forces = NodalForces(bricks, self._size)
         self._parities = set(self._forces(tuple(press.with_force(1.0) for press in self._around)))
         self._responses: dict[Load, dict[Parity, FloatArray]] = {}
 
@@ -242,7 +243,7 @@ class FEASolid:
         return self._responses[load]
 
     def _forces(self, load: Load) -> dict[Parity, FloatArray]:
-        return nodal_forces(self.bricks, self._size, load)
+        return self._nodal_forces.of(load)
 
 
 def _subdivided(lines: FloatArray) -> FloatArray:

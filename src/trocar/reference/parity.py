@@ -60,6 +60,11 @@ def fold(points: FloatArray, size: tuple[float, float]) -> tuple[FloatArray, Int
     return np.clip(np.where(mirrored, sides - flat, flat), 0.0, 0.5 * sides), mirrored.astype(np.int64)
 
 
+def mirrored_lines(lines: FloatArray, side: float) -> FloatArray:
+    """Return the grid lines [m] of the whole block from those of its first half."""
+    return np.concatenate([lines, (side - lines[:-1])[::-1]])
+
+
 def mirror_signs(parity: Parity, mirrored: IntArray) -> FloatArray:
     """Return what a part's components in the first quarter are multiplied by in a mirrored place.
 
