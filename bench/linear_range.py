@@ -33,6 +33,7 @@ from trocar.study.linear_range import AGREEMENT, LinearRange, linear_range
 from trocar.tissues import Layer, Tissue
 
 SIZE = (0.06, 0.06)
+PAPER_FORCE = 5.0  # [N], what the 2014 paper presses with
 DEFLECTION_SHARES = (5e-4, 4e-3, 8e-3, 0.014, 0.022, 0.035, 0.05, 0.07, 0.095, 0.13, 0.18, 0.25)
 """Linear deflection over thickness at the forces that are run; at the first, both laws agree."""
 
@@ -167,6 +168,11 @@ def main() -> None:
     print(f"called inside though beyond 3 %: {int((allowed > 1).sum())}")
     print(f"called outside though a force twice as large is within 3 %: {int((allowed < 0.5).sum())}")
     print(f"limit / 3 %: median {np.median(allowed):.2f}, {allowed.min():.2f} to {allowed.max():.2f}")
+    skins = [row for row in rows if "fat" in row.case.tissue.layer_names]
+    if skins:
+        shares = [PAPER_FORCE * row.criterion.deflection_share for row in skins]
+        print(f"at {PAPER_FORCE:g} N linear theory deflects skin by {min(shares):.1f} to", end=" ")
+        print(f"{max(shares):.1f} times its thickness")
     insane = [row.case.tissue.name for row in rows if not row.pressed.sane]
     print(f"states beyond reason (stretch or height below 0.3, volume ratio below 0.8): {insane or 'none'}")
 

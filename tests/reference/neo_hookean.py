@@ -33,7 +33,7 @@ from trocar.tissues import Layer, Tissue
 from trocar.units import MEGAPASCAL, MILLIMETRE
 
 # C3D20 (CalculiX manual, sec. 6.2.8): corners of the lower face, of the upper face, middles of the lower
-# edges, of the upper edges, of the upright edges, each anticlockwise seen from above. Coordinates from -1 to 1.
+# edges, of the upper edges, of the upright edges, each anticlockwise seen from above. Coordinates -1 to 1.
 _CORNERS = np.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
 _EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
 LOCAL_NODES = np.vstack([_CORNERS, [(_CORNERS[i] + _CORNERS[j]) // 2 for i, j in _EDGES]])
@@ -82,7 +82,7 @@ class NeoHookeanBlock:
         size: sides of the block [m].
         support: how the block is held.
         radius: of the tool [m].
-        per_radius: elements along the radius.
+        per_radius: elements along the radius; those below grow with depth in proportion.
     """
 
     tissue: Tissue
@@ -129,7 +129,8 @@ class NeoHookeanBlock:
         z, upper = [0.0], 0.0
         for layer in self.tissue.layers:
             thickness, depth = layer.thickness / MILLIMETRE, -upper
-            count = ceil(thickness / (0.35 * radius + 0.35 * (depth + 0.5 * thickness)))
+            high = 0.7 / self.per_radius * (radius + depth + 0.5 * thickness)
+            count = ceil(thickness / high)
             z += [upper - thickness * (i + 1) / count for i in range(count)]
             upper -= thickness
         return sides[0], sides[1], np.array(z[::-1])
