@@ -9,23 +9,55 @@ from typing import Any
 import numpy as np
 
 from trocar.errors import InputError
-from trocar.model import Press, TissueModel
+from trocar.model import Press, Profile, TissueModel
 from trocar.reference.fea import FEASolid
 from trocar.study.experiment import Case
 from trocar.tissues import Layer, Tissue
+from trocar.waves.cutoff import modes_for
+from trocar.waves.fit import RADII
 from trocar.waves.membrane import WaveMembrane
 from trocar.waves.solid import WaveSolid
 
 AnyModel = TissueModel[Any]
+LEAST_MODES, MOST_MODES = 48, 1024  # a side; 1024 x 1024 wavenumbers of three layers fill 100 MiB
+_SHARE_LEFT_OUT = 0.004  # by the rule's envelope; of a homogeneous block a quarter of it is missing, of skin far less
+_MOST_LEFT_OUT = 0.1  # where MOST_MODES is not enough: 2 % is missing
 NOT_BUILT_YET = ("wave-mesh", "mass-spring", "mesh-free")
 
 
 def _wave_membrane(case: Case) -> AnyModel:
-    return WaveMembrane.fitted(case.tissue, size=case.size, support=case.support, modes=(96, 96))
+    widest = max(tool.diameter / 2 for tool in case.tools)
+    smallest = min(tool.diameter / 2 for tool in case.tools)
+    radii = RADII
+    if not (RADII[0] <= smallest and widest <= RADII[-1]):
+        radii = (0.75 * smallest, smallest, widest, 1.5 * widest)
+    return WaveMembrane.fitted(
+        case.tissue, size=case.size, support=case.support, modes=series_modes(case), radii=radii
+    )
 
 
 def _wave_solid(case: Case) -> AnyModel:
-    return WaveSolid(case.tissue, size=case.size, support=case.support)
+    return WaveSolid(case.tissue, size=case.size, support=case.support, modes=series_modes(case))
+
+
+def series_modes(case: Case) -> tuple[int, int]:
+    """Return how many modes a case's smallest tool needs; the rule for a flat tool is an upper bound.
+
+    Raises:
+        InputError: the tool is too small for the block.
+    """
+    radius = min(tool.diameter / 2 for tool in case.tools)
+    wanted = modes_for(radius, Profile.FLAT, case.size, _SHARE_LEFT_OUT)
+    least = modes_for(radius, Profile.FLAT, case.size, _MOST_LEFT_OUT)
+    if max(least) > MOST_MODES:
+        raise InputError(
+            "tool: diameter",
+            f"at least {2e3 * radius * max(least) / MOST_MODES:.3g} mm on so large a block, for the wave models",
+            2e3 * radius,
+            "take a smaller block",
+        )
+    m, n = (min(max(modes, LEAST_MODES), MOST_MODES) for modes in wanted)
+    return m, n
 
 
 def _fea(case: Case) -> AnyModel:

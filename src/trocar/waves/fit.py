@@ -16,6 +16,7 @@ A fit holds for the block it was made for: its size, its support, and tools from
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import ceil, pi
 
 import numpy as np
 from scipy.optimize import least_squares, lsq_linear, nnls
@@ -29,7 +30,8 @@ from trocar.waves.stack import Coupling, Stack, derived_stack
 from trocar.waves.thin_layer import ThinLayers, Wavenumbers, vertical_and_along
 
 RADII = (2.5e-3, 3e-3, 4e-3, 6e-3)  # [m] tools of 5, 6, 8 and 12 mm
-_MODES = 63  # highest odd mode: a flat 5 mm tool's peak within 0.1 %
+_REACH = 8.25  # highest wavenumber times the smallest radius: a flat tool's peak within 0.1 %
+_MOST_MODES = 127  # a side, whatever the tool
 _STATIONS = (0.0, 0.5, 1.0, 1.5, 2.5)  # where the profile is matched, in tool radii from the centre
 _LOG_RANGE = 14.0  # coefficients stay within e^14 of their derived values
 _LOG_STIFFER = (
@@ -49,7 +51,9 @@ class _Target:
     profile: FloatArray  # (radii * stations, J)
 
 
-def fitted_stack(tissue: Tissue, *, size: tuple[float, float], support: Support) -> Stack:
+def fitted_stack(
+    tissue: Tissue, *, size: tuple[float, float], support: Support, radii: tuple[float, ...] = RADII
+) -> Stack:
     """Fit a stack of sheets, one per layer, to `WaveSolid`'s response.
 
     Args:
@@ -57,9 +61,10 @@ def fitted_stack(tissue: Tissue, *, size: tuple[float, float], support: Support)
             difference is added to its sheet's tensions afterwards.
         size: sides a, b [m].
         support: which block the coefficients are for.
+        radii: of the tools the fit is made under [m].
     """
     even = Tissue(layers=tuple(_evenly_prestressed(layer) for layer in tissue.layers), name=tissue.name)
-    target = _target(even, size, support)
+    target = _target(even, size, support, radii)
     stack = _fit_static(even, target, support)
     stack = _fit_rates(even, stack, target)
     sheets = []
@@ -74,10 +79,11 @@ def _evenly_prestressed(layer: Layer) -> Layer:
     return replace(layer, prestress_x=mean, prestress_y=mean)
 
 
-def _target(tissue: Tissue, size: tuple[float, float], support: Support) -> _Target:
-    series = Series(size, (_MODES, _MODES))
-    odd = np.arange(1, _MODES + 1, 2)
-    kx, ky = (grid.ravel() for grid in np.meshgrid(series.kx[odd], series.ky[odd], indexing="ij"))
+def _target(tissue: Tissue, size: tuple[float, float], support: Support, radii: tuple[float, ...]) -> _Target:
+    highest = [min(ceil(_REACH * side / min(radii) / pi), _MOST_MODES) for side in size]
+    series = Series(size, (highest[0], highest[1]))
+    odd_m, odd_n = (np.arange(1, most + 1, 2) for most in highest)
+    kx, ky = (grid.ravel() for grid in np.meshgrid(series.kx[odd_m], series.ky[odd_n], indexing="ij"))
     k = np.hypot(kx, ky)
     _, first, places = np.unique(np.round(k * size[0], 9), return_index=True, return_inverse=True)
     at = Wavenumbers(k[first], kx[first] ** 2, ky[first] ** 2)
@@ -86,7 +92,7 @@ def _target(tissue: Tissue, size: tuple[float, float], support: Support) -> _Tar
     compliance, damping, inertia = _moments(layers, at)
     a, b = size
     rows = []
-    for radius in RADII:
+    for radius in radii:
         # At the centre every odd sine is +-1 and its square 1; the profile runs along x.
         weight = 4 / (a * b) * transform(Profile.FLAT, k * radius)
         rows += [

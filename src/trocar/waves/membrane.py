@@ -17,7 +17,7 @@ import numpy as np
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
 from trocar.tissues.tissue import Tissue
-from trocar.waves.fit import fitted_stack
+from trocar.waves.fit import RADII, fitted_stack
 from trocar.waves.footprint import modal_forces
 from trocar.waves.oscillators import Oscillators
 from trocar.waves.series import Field, Series
@@ -81,10 +81,14 @@ class WaveMembrane:
         size: tuple[float, float],
         support: Support | str = Support.BASE,
         modes: tuple[int, int] = (48, 48),
+        radii: tuple[float, ...] = RADII,
     ) -> WaveMembrane:
-        """Build one with coefficients fitted to `WaveSolid`'s response (see `fit`)."""
+        """Build one with coefficients fitted to `WaveSolid`'s response (see `fit`) under tools of these radii [m]."""
         return cls(
-            fitted_stack(tissue, size=size, support=Support(support)), size=size, modes=modes, support=support
+            fitted_stack(tissue, size=size, support=Support(support), radii=radii),
+            size=size,
+            modes=modes,
+            support=support,
         )
 
     @property

@@ -27,7 +27,8 @@ from trocar.tissues.tissue import Tissue
 
 Element = Callable[[Layer, float], tuple[FloatArray, FloatArray, FloatArray, FloatArray]]
 _GROWTH = 0.5  # element length over its depth below the surface: a wave k dies as exp(-k depth)
-_TOP = 0.6  # first element as a share of the top layer where that is thin
+_TOP = 0.6  # first element as a share of the top layer, or of a thick one's upper part
+_SHALLOW = 0.03  # that part, as a share of the whole: tools are that wide at least
 _PER_LAYER = 5  # elements through the thickest layer at least: waves inside it
 
 
@@ -115,7 +116,7 @@ def horizontal_shear(tissue: Tissue, *, base_held: bool, refinement: int = 1) ->
 def element_lengths(tissue: Tissue) -> list[FloatArray]:
     """Return the elements' lengths [m] of each layer, top down: growing with depth, capped inside thick layers."""
     depth, lengths = 0.0, []
-    first = _TOP * min(tissue.layers[0].thickness, 0.1 * tissue.thickness)
+    first = _TOP * min(tissue.layers[0].thickness, _SHALLOW * tissue.thickness)
     cap = max(layer.thickness for layer in tissue.layers) / _PER_LAYER
     for layer in tissue.layers:
         left, own = layer.thickness, []
