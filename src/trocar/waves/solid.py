@@ -60,13 +60,19 @@ class WaveSolid:
         self._series = Series(size, modes)
         self._moving = Series(size, (min(modes[0], dynamic_modes[0]), min(modes[1], dynamic_modes[1])))
         self._order = order
-        held = self.support.base_held
-        self._layers_wv = vertical_and_along(tissue, base_held=held, refinement=refinement)
-        self._layers_s = horizontal_shear(tissue, base_held=held, refinement=refinement)
+        self._refinement = refinement
         shape = self._series.kx.size, self._series.ky.size, len(tissue.layers)
         self._compliance_wv = np.full((*shape, 2, 2), np.nan)
         self._compliance_s = np.full((*shape, 1, 1), np.nan)
         self._unit_response = lru_cache(maxsize=8)(self._response_to_unit_press)
+
+    @cached_property
+    def _layers_wv(self) -> ThinLayers:
+        return vertical_and_along(self.tissue, base_held=self.support.base_held, refinement=self._refinement)
+
+    @cached_property
+    def _layers_s(self) -> ThinLayers:
+        return horizontal_shear(self.tissue, base_held=self.support.base_held, refinement=self._refinement)
 
     @property
     def modes(self) -> tuple[int, int]:
