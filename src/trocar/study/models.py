@@ -20,7 +20,9 @@ from trocar.waves.solid import WaveSolid
 
 AnyModel = TissueModel[Any]
 LEAST_MODES, MOST_MODES = 48, 1024  # a side; 1024 x 1024 wavenumbers of three layers fill 100 MiB
-_SHARE_LEFT_OUT = 0.004  # by the rule's envelope; of a homogeneous block a quarter of it is missing, of skin far less
+_SHARE_LEFT_OUT = (
+    0.004  # by the rule's envelope; of a homogeneous block a quarter of it is missing, of skin far less
+)
 _MOST_LEFT_OUT = 0.1  # where MOST_MODES is not enough: 2 % is missing
 NOT_BUILT_YET = ("wave-mesh", "mass-spring", "mesh-free")
 

@@ -1,13 +1,15 @@
 """How many modes a tool needs: its footprint passes no short waves.
 
-Of what a footprint of radius R puts into a wavenumber k, the share A(k R) is left (`footprint`). At short wavelengths
-every elastic block answers as a half-space, whose compliance falls as 1/k (Johnson 1985, Contact Mechanics, section
-3.2); membranes fall faster. Under the tool's centre the waves beyond a cut-off K then add the share
+Of what a footprint of radius R puts into a wavenumber k, the share A(k R) is left (`footprint`). At short
+wavelengths every elastic block answers as a half-space, whose compliance falls as 1/k (Johnson 1985, Contact
+Mechanics, section 3.2); membranes fall faster. Under the tool's centre the waves beyond a cut-off K then add
+the share
 
     integral of A from K R on / integral of A from 0 on
 
-of the deflection. It is erfc(K R/sqrt 8) for a Gaussian. For the others it oscillates below an envelope, which follows
-from A at large arguments: sqrt(2/pi) (K R)^(-3/2) for the flat disc, 4/(pi (K R)^2) for the Hertz sphere.
+of the deflection. It is erfc(K R/sqrt 8) for a Gaussian. For the others it oscillates below an envelope,
+which follows from A at large arguments: sqrt(2/pi) (K R)^(-3/2) for the flat disc, 4/(pi (K R)^2) for the
+Hertz sphere.
 
 The rule needs no model and asks for more than a membrane needs; where the compliance of every mode is known,
 `measured_cutoff` adds up what the modes do.
@@ -26,7 +28,7 @@ from trocar.waves.footprint import transform
 
 
 def cutoff_for(radius: float, profile: Profile, tolerance: float) -> float:
-    """Return the wavenumber [1/m] beyond which waves add less than `tolerance` to the deflection under a tool.
+    """Return the wavenumber [1/m] beyond which waves add less than `tolerance` to a tool's deflection.
 
     Args:
         radius: of the footprint [m].
@@ -45,7 +47,7 @@ def cutoff_for(radius: float, profile: Profile, tolerance: float) -> float:
             reach = 8**0.5 * float(erfcinv(tolerance))
         case Profile.FLAT:
             reach = (2 / pi) ** (1 / 3) * tolerance ** (-2 / 3)
-        case Profile.SPHERE:
+        case _:  # the Hertz sphere
             reach = (4 / (pi * tolerance)) ** 0.5
     return reach / radius
 
@@ -64,7 +66,7 @@ def modes_for(
     Raises:
         InputError: an argument is not possible.
     """
-    if len(size) != 2 or not all(isfinite(side) and side > 0 for side in size):
+    if not all(isfinite(side) and side > 0 for side in size):
         raise InputError("cut-off: size", "two finite sides above 0 [m]", size)
     cutoff = cutoff_for(radius, profile, tolerance)
     return ceil(cutoff * size[0] / pi), ceil(cutoff * size[1] / pi)
@@ -75,11 +77,13 @@ def measured_cutoff(
 ) -> float:
     """Return the smallest wavenumber [1/m] beyond which a model's own waves add less than `tolerance`.
 
-    The sum is that of the static deflection under the tool's centre, averaged over its places on the block, in the
-    layer that needs most; a slow press needs the same modes, a fast one hears less of the short waves' inertia.
+    The sum is that of the static deflection under the tool's centre, averaged over its places on the block,
+    in the layer that needs most; a slow press needs the same modes, a fast one hears less of the short waves'
+    inertia.
 
     Args:
-        compliance: of every mode and layer [m/Pa], shape (M, N, layers); see `WaveMembrane.static_compliance`.
+        compliance: of every mode and layer [m/Pa], shape (M, N, layers); see
+            `WaveMembrane.static_compliance`.
         size: sides a, b of the block [m].
         radius: of the footprint [m].
         profile: how the traction is spread.

@@ -1,9 +1,10 @@
 """`WaveSolid` under one tool that stays where it is: a force comes in, deflections come out.
 
-Only the waves that the tool excites move. For an upright tool in the middle of the block these are odd m and n, and no
-horizontally polarised shear: what is left of the block is the quarter that mirror symmetry leaves of any method. The
-tool's traction and the read-out are folded into the blocks, so a step is E z + G F per block and one sum per face;
-as in `tick`, z = x - W1 B F needs one gain. Waves beyond the moving ones follow at once, as in `WaveSolid`.
+Only the waves that the tool excites move. For an upright tool in the middle of the block these are odd m and
+n, and no horizontally polarised shear: what is left of the block is the quarter that mirror symmetry leaves
+of any method. The tool's traction and the read-out are folded into the blocks, so a step is E z + G F per
+block and one sum per face; as in `tick`, z = x - W1 B F needs one gain. Waves beyond the moving ones follow
+at once, as in `WaveSolid`.
 """
 
 from __future__ import annotations
@@ -114,7 +115,7 @@ def press_through(
     forces: FloatArray,
     result: FloatArray,
 ) -> None:  # pragma: no cover - compiled
-    """Step through a history of forces; see `HeldTool` for the arguments. `state` and `result` are overwritten."""
+    """Step through a history of forces; arguments as in `HeldTool`, `state` and `result` overwritten."""
     e00, e01, e10, e11 = transition
     gain_x, gain_y = gain
     x, y = state

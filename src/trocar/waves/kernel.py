@@ -1,4 +1,4 @@
-"""The compiled step of every wave model: no allocation, no fast-math, one thread, so runs repeat bit by bit."""
+"""The compiled step of every wave model: no allocation, no fast-math, one thread: runs repeat bit by bit."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from numba import njit
 
 from trocar.model import FloatArray
 
-# Flushing what is smaller keeps every product of two numbers that are not zero above the smallest normal double,
-# 2.2e-308. Below it processors slow down, and a released tissue would get there: e^-345 after eleven seconds at 30/s.
+# Flushing what is smaller keeps every product of two numbers that are not zero above the smallest normal
+# double, 2.2e-308. Below it processors slow down, and a released tissue would get there: e^-345 after eleven
+# seconds at 30/s.
 TINY = 1e-150
 
 

@@ -177,24 +177,35 @@ def _shapes(points: int) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 def _element_wv(layer: Layer, length: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Return the element's coefficients of 1, k, k^2 and its int N N, components interleaved."""
-    mu = layer.shear_modulus
-    k0, k1, k2, unit = (np.zeros((6, 6)) for _ in range(4))
+    (volume0, volume1, volume2), (shear0, shear1, shear2), unit = _reference_wv()
+    lame, mu = layer.lame_lambda, layer.shear_modulus
+    return (
+        (lame * volume0 + mu * shear0) / length,
+        lame * volume1 + mu * shear1,
+        (lame * volume2 + mu * shear2) * length,
+        unit * length,
+    )
+
+
+@cache
+def _reference_wv() -> tuple[tuple[FloatArray, ...], tuple[FloatArray, ...], FloatArray]:
+    """Return the coefficients of lambda and of mu for an element of length 1, and its int N N."""
     w, v = slice(0, None, 2), slice(1, None, 2)
-    for points, lame, shear in ((2, layer.lame_lambda, 0.0), (3, 0.0, mu)):
-        weight, value, slope = _shapes(points)
-        both = np.einsum("q,qi,qj->ij", weight, value, value) * length
-        steep = np.einsum("q,qi,qj->ij", weight, slope, slope) / length
-        mixed = np.einsum("q,qi,qj->ij", weight, slope, value)  # rows N', columns N
-        k0[w, w] += (lame + 2 * shear) * steep
-        k0[v, v] += shear * steep
-        k2[w, w] += shear * both
-        k2[v, v] += (lame + 2 * shear) * both
-        cross = -lame * mixed + shear * mixed.T  # W' V and W V'
-        k1[w, v] += cross
-        k1[v, w] += cross.T
-        if points == 3:
-            unit[w, w] = unit[v, v] = both
-    return k0, k1, k2, unit
+    volume, shear = (tuple(np.zeros((6, 6)) for _ in range(3)) for _ in range(2))
+    unit = np.zeros((6, 6))
+    weight, value, slope = _shapes(2)
+    volume[0][w, w] = np.einsum("q,qi,qj->ij", weight, slope, slope)
+    volume[1][w, v] = -np.einsum("q,qi,qj->ij", weight, slope, value)  # W' V
+    volume[1][v, w] = volume[1][w, v].T
+    volume[2][v, v] = np.einsum("q,qi,qj->ij", weight, value, value)
+    weight, value, slope = _shapes(3)
+    steep, both = (np.einsum("q,qi,qj->ij", weight, shape, shape) for shape in (slope, value))
+    shear[0][w, w], shear[0][v, v] = 2 * steep, steep
+    shear[1][w, v] = np.einsum("q,qi,qj->ij", weight, value, slope)  # W V'
+    shear[1][v, w] = shear[1][w, v].T
+    shear[2][w, w], shear[2][v, v] = both, 2 * both
+    unit[w, w] = unit[v, v] = both
+    return volume, shear, unit
 
 
 def _element_s(layer: Layer, length: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:

@@ -1,16 +1,18 @@
 """One tick of a live tissue: `WaveMembrane.step` and its read-out under the tools, in one compiled pass.
 
-Each tool has a Gaussian footprint, so its modal force is one product, -F X_m Y_n with X_m = exp(-(R kx)^2/8)
-sin(kx x): the whole load is a sum of as many products as there are tools. Between two ticks the modal forces go
-linearly from the last ones to those at the tools' new places, as in `WaveMembrane.step`. A block's exact step
+Each tool has a Gaussian footprint, so its modal force is one product, -F X_m Y_n with
+X_m = exp(-(R kx)^2/8) sin(kx x): the whole load is a sum of as many products as there are tools. Between two
+ticks the modal forces go linearly from the last ones to those at the tools' new places, as in
+`WaveMembrane.step`. A block's exact step
 
     x1 = E x0 + W0 f0 + W1 f1    is stepped as    z1 = E z0 + (E W1 + W0) f0,    z = x - W1 f,
 
-which needs one gain instead of two and leaves a tissue whose next force is not known yet half a step ahead: z1 and
-the one-step compliance R W1 are what an implicit contact law asks for. Layer k's read-out is R_k z1 + (R_k W1) f1.
+which needs one gain instead of two and does not ask for the next force: z1 and the one-step compliance R W1
+are what an implicit contact law starts from. Layer k's read-out is R_k z1 + (R_k W1) f1.
 
-Memory: a strip is up to 64 modes of one row m, and its coefficients lie in planes of 64, one after the other, so that
-a compiled loop over a strip runs along every plane at once. Only modes with kx^2 + ky^2 <= K^2 are kept.
+Memory: a strip is up to 64 modes of one row m, and its coefficients lie in planes of 64, one after the other,
+so that a compiled loop over a strip runs along every plane at once. Only modes with kx^2 + ky^2 <= K^2 are
+kept.
 """
 
 from __future__ import annotations
@@ -40,12 +42,13 @@ class Tick(NamedTuple):
     """What a tick needs to know; a named tuple, because compiled code takes one whole. Nothing in it changes.
 
     Attributes:
-        planes: coefficients, shape (strips, planes * 64): for each of r blocks E00, E01, E10, E11, G0, G1; then for
-            each of k layers R0, R1 of every block, and R W1.
+        planes: coefficients, shape (strips, planes * 64): for each of r blocks E00, E01, E10, E11, G0, G1;
+            then for each of k layers R0, R1 of every block, and R W1.
         row: m - 1 of each strip, shape (strips,).
         first: n - 1 of its first mode, a multiple of 64, shape (strips,).
         modes: how many modes a strip steps, padding included, shape (strips,).
-        spread_x, spread_y: exp(-(R k)^2/8) of every tool along x and y, shapes (tools, M) and (tools, N padded).
+        spread_x, spread_y: exp(-(R k)^2/8) of every tool along x and y, shapes (tools, M) and
+            (tools, N padded).
         size: sides a, b [m], shape (2,).
         end_gain: W1 of every mode kept, shape (kept, r, 2).
         kept: number of each mode kept among the model's (M N), shape (kept,).
@@ -75,7 +78,8 @@ class TickState(NamedTuple):
     Attributes:
         blocks: z = x - W1 f, shape (strips, 2 r * 64).
         force: modal forces f now [N], shape (strips, 64).
-        shapes_x, shapes_y: scratch, sin(kx x) and sin(ky y) of every tool, shapes (tools, M) and (tools, N padded).
+        shapes_x, shapes_y: scratch, sin(kx x) and sin(ky y) of every tool, shapes (tools, M) and
+            (tools, N padded).
         pressed_y: scratch, the latter times the spread of the footprint.
         read: scratch, sums over the rows, shape (tools, layers, N padded).
         strip_read: scratch, one layer's amplitudes in a strip, shape (64,).
@@ -108,8 +112,8 @@ def make_tick(
     if not radii or not all(0 < radius < float("inf") for radius in radii):
         raise InputError("tick: radii", "one finite number above 0 [m] for each tool", radii)
     rows, columns = model.modes
-    kx = pi / model.size[0] * np.arange(1, rows + 1)
-    ky = pi / model.size[1] * np.arange(1, columns + 1)
+    kx = pi / model.size[0] * np.arange(1.0, rows + 1)
+    ky = pi / model.size[1] * np.arange(1.0, columns + 1)
     m, n = np.nonzero(kx[:, None] ** 2 + ky[None, :] ** 2 <= cutoff**2)
     if not len(m):
         raise InputError(
@@ -132,7 +136,7 @@ def make_tick(
     table = np.concatenate([turn.reshape(len(kept), -1), read.reshape(len(kept), -1)], axis=1)
     planes = np.zeros((parts.shape[1], table.shape[1], STRIP))
     planes[strip, :, n % STRIP] = np.where(np.abs(table) > TINY, table, 0.0)
-    width = _padded(columns)
+    width = int(_padded(np.array([columns]))[0])
     return Tick(
         planes=planes.reshape(len(planes), -1),
         row=np.ascontiguousarray(parts[0]),
@@ -150,8 +154,9 @@ def make_tick(
     )
 
 
-def _padded(count):  # type: ignore[no-untyped-def]
-    return -(-count // _LANES) * _LANES
+def _padded(counts: IntArray) -> IntArray:
+    result: IntArray = -(-counts // _LANES) * _LANES
+    return result
 
 
 def _spread(wavenumbers: FloatArray, radii: tuple[float, ...], width: int) -> FloatArray:
@@ -204,9 +209,9 @@ def to_wave_state(tick: Tick, state: TickState, time: float, load: Load = ()) ->
 def sines(place: float, side: float, out: FloatArray) -> None:  # pragma: no cover - compiled
     """Write sin(m pi place/side), m = 1, 2, ..., by differences.
 
-    s_(m+1) - s_m = s_m - s_(m-1) - 4 sin^2(phi/2) s_m keeps its accuracy where phi is small (Reinsch's form of the
-    three-term recurrence: Stoer and Bulirsch 2002, Introduction to Numerical Analysis, section 1.3); the far half is
-    the mirror image of the near one.
+    s_(m+1) - s_m = s_m - s_(m-1) - 4 sin^2(phi/2) s_m keeps its accuracy where phi is small (Reinsch's form
+    of the three-term recurrence: Stoer and Bulirsch 2002, Introduction to Numerical Analysis, section 1.3);
+    the far half is the mirror image of the near one.
     """
     mirrored = place > 0.5 * side
     phi = pi * ((side - place) if mirrored else place) / side
@@ -231,8 +236,8 @@ def advance_tick(
     Args:
         tick: parameters.
         state: overwritten.
-        tools: x [m], y [m] and force [N], positive pressing in, of every tool at the end of the tick, shape (tools, 3).
-            A tool that touches nothing has force 0; it should lie on the block.
+        tools: x [m], y [m] and force [N], positive pressing in, of every tool at the end of the tick, shape
+            (tools, 3). A tool that touches nothing has force 0; it should lie on the block.
         displacement: u_z [m] of every layer's upper face at the tools' centres at the end of the tick, shape
             (tools, layers); written.
     """
@@ -255,34 +260,34 @@ def advance_tick(
         for i in range(order):
             e = c[i * _STEP_PLANES * STRIP :]
             x = z[2 * i * STRIP :]
-            for l in range(modes):
-                p = x[l]
-                q = x[STRIP + l]
-                x[l] = turned(e[l], e[STRIP + l], p, q, e[4 * STRIP + l] * f[l])
-                x[STRIP + l] = turned(e[2 * STRIP + l], e[3 * STRIP + l], p, q, e[5 * STRIP + l] * f[l])
-        for l in range(modes):
-            f[l] = 0.0
+            for j in range(modes):
+                p = x[j]
+                q = x[STRIP + j]
+                x[j] = turned(e[j], e[STRIP + j], p, q, e[4 * STRIP + j] * f[j])
+                x[STRIP + j] = turned(e[2 * STRIP + j], e[3 * STRIP + j], p, q, e[5 * STRIP + j] * f[j])
+        for j in range(modes):
+            f[j] = 0.0
         for t in range(count):
             push = -tools[t, 2] * tick.spread_x[t, m] * state.shapes_x[t, m]
             pressed = state.pressed_y[t, n0:]
-            for l in range(modes):
-                f[l] += push * pressed[l]
+            for j in range(modes):
+                f[j] += push * pressed[j]
         r = c[order * _STEP_PLANES * STRIP :]
         for k in range(layers):
             own = r[k * (2 * order + 1) * STRIP :]
             at_once = own[2 * order * STRIP :]
-            for l in range(modes):
-                u[l] = at_once[l] * f[l]
+            for j in range(modes):
+                u[j] = at_once[j] * f[j]
             for i in range(order):
                 out = own[2 * i * STRIP :]
                 x = z[2 * i * STRIP :]
-                for l in range(modes):
-                    u[l] += out[l] * x[l] + out[STRIP + l] * x[STRIP + l]
+                for j in range(modes):
+                    u[j] += out[j] * x[j] + out[STRIP + j] * x[STRIP + j]
             for t in range(count):
                 weight = state.shapes_x[t, m]
                 sums = state.read[t, k, n0:]
-                for l in range(modes):
-                    sums[l] += weight * u[l]
+                for j in range(modes):
+                    sums[j] += weight * u[j]
     for t in range(count):
         for k in range(layers):
             total = 0.0

@@ -1,0 +1,170 @@
+"""`trocar bench`: what a step costs on this machine, and what finite elements cost at equal error."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+if TYPE_CHECKING:
+    from trocar.study.equal_error import EqualError
+    from trocar.study.tick_cost import TickCost
+
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON alone.")]
+TissueName = Annotated[str, typer.Option("--tissue", help="A preset; see trocar tissues list.")]
+_SIZE = (0.06, 0.06)  # [m] the paper's block
+_TOLERANCE = 1e-4  # of the deflection under a live tool
+_TOLERANCES = (0.01, 0.005, 0.003)  # at which waves and finite elements are compared
+
+
+def register(app: typer.Typer) -> None:
+    """Add `trocar bench` to an application."""
+    group = typer.Typer(no_args_is_help=True, help="Measure what steps cost on this machine.")
+    group.command("step", epilog="Example: trocar bench step --diameter-mm 8")(step)
+    group.command("cost", epilog="Example: trocar bench cost --quick")(cost)
+    app.add_typer(group, name="bench", epilog="Example: trocar bench step")
+
+
+def step(
+    diameters_mm: Annotated[
+        list[float] | None,
+        typer.Option("--diameter-mm", help="Of both tools; may be repeated. [default: 6, 8, 12]"),
+    ] = None,
+    tolerance: Annotated[
+        float, typer.Option(help="Relative error that the modes are chosen for.")
+    ] = _TOLERANCE,
+    tissue: TissueName = "skin",
+    as_json: AsJson = False,
+) -> None:
+    """Time one 1 ms tick of the live tissue with two tools, beside the machine's floor and other steps."""
+    from trocar.study.tick_cost import tick_cost
+    from trocar.study.warm_up import compile_seconds
+    from trocar.tissues.catalogue import tissue as preset
+
+    layers = preset(tissue)
+    compiled = compile_seconds(layers)
+    costs = [
+        tick_cost(layers, size=_SIZE, radius=5e-4 * diameter, tolerance=tolerance)
+        for diameter in diameters_mm or (6.0, 8.0, 12.0)
+    ]
+    if as_json:
+        _print_json({"compile_s": compiled, "ticks": [cost.as_dict() for cost in costs]})
+        return
+    Console(highlight=False).print(
+        _tick_table(costs), f"\ncompiled code ready after {compiled:.2f} s", sep="\n"
+    )
+
+
+def cost(
+    tissue: TissueName = "skin",
+    diameter_mm: Annotated[float, typer.Option(help="Of the flat tool in the middle.")] = 6.0,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Coarser reference, fewer meshes, 1 % alone.")
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Compare waves and finite elements at equal measured error: a dynamic press, the study's static load."""
+    from trocar.model import Press
+    from trocar.study.equal_error import dynamic_press, static_study
+    from trocar.study.warm_up import compile_seconds
+    from trocar.tissues.catalogue import tissue as preset
+
+    layers = preset(tissue)
+    compiled = compile_seconds(layers)
+    tool = Press(x=_SIZE[0] / 2, y=_SIZE[1] / 2, radius=5e-4 * diameter_mm, force=0.1)
+    tolerances = _TOLERANCES[:1] if quick else _TOLERANCES
+    results = {
+        "dynamic": dynamic_press(layers, tool, size=_SIZE, tolerances=tolerances, quick=quick),
+        "static": static_study(layers, tool.with_force(5.0), size=_SIZE, tolerances=tolerances, quick=quick),
+    }
+    if as_json:
+        found = {name: [result.as_dict() for result in rows] for name, rows in results.items()}
+        _print_json({"compile_s": compiled, **found})
+        return
+    console = Console(highlight=False)
+    for name, rows in results.items():
+        console.print(_cost_table(rows, dynamic=name == "dynamic"))
+        console.print(
+            f"finest finite elements lie {100 * rows[0].converged:.2g} % from the converged waves\n"
+        )
+    console.print(f"compiled code ready after {compiled:.2f} s")
+
+
+def _print_json(content: object) -> None:
+    typer.echo(json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def _table(title: str) -> Table:
+    return Table(box=box.SIMPLE_HEAD, title=title, title_justify="left", pad_edge=False, show_edge=False)
+
+
+def _tick_table(costs: list[TickCost]) -> Table:
+    table = _table("one tick of 1 ms, two tools, CPU time")
+    table.add_column("tools of")
+    for one in costs:
+        table.add_column(f"{one.diameter_mm:g} mm", justify="right")
+    rows: tuple[tuple[str, Callable[[TickCost], str]], ...] = (
+        ("modes x layers", lambda c: f"{c.modes} x {c.layers}"),
+        ("error against all modes", lambda c: f"{c.error:.1e}"),
+        ("tick in a compiled loop, median", lambda c: f"{c.tick_us:.1f} us"),
+        ("the same, least of the repeats", lambda c: f"{c.tick_least_us:.1f} us"),
+        ("the same, 20 s after release", lambda c: f"{c.released_us:.1f} us"),
+        ("tick called from Python, wall, median", lambda c: f"{c.call_us:.1f} us"),
+        ("the same, 99th percentile", lambda c: f"{c.call_p99_us:.1f} us"),
+        ("pass of an empty compiled loop", lambda c: f"{c.empty_us:.4f} us"),
+        ("read and written", lambda c: f"{c.kilobytes:.0f} kB"),
+        ("triad of that size", lambda c: f"{c.triad_gb_s:.0f} GB/s"),
+        ("memory floor", lambda c: f"{c.floor_us:.1f} us"),
+        ("tick over floor", lambda c: f"{c.tick_us / c.floor_us:.1f}"),
+        ("WaveMembrane.step and read-out", lambda c: f"{c.python_us:.0f} us"),
+        ("that over tick", lambda c: f"{c.python_us / c.tick_us:.0f}"),
+        ("prefactored finite-element step", lambda c: f"{c.fea_us:.0f} us"),
+        ("its unknowns, solver", lambda c: f"{c.fea_dofs}, {c.fea_solver}"),
+        ("that over tick", lambda c: f"{c.fea_us / c.tick_us:.0f}"),
+        ("set-up of the tick", lambda c: f"{c.set_up_s:.2f} s"),
+    )
+    for name, text in rows:
+        table.add_row(name, *(text(one) for one in costs))
+    return table
+
+
+def _cost_table(results: tuple[EqualError, ...], *, dynamic: bool) -> Table:
+    table = _table(results[0].case)
+    names: tuple[str, ...] = (
+        "allowed",
+        "model",
+        "setting",
+        "error",
+        "unknowns",
+        "set-up",
+        "step, us",
+        "dt, ms",
+        "ratio",
+    )
+    if not dynamic:
+        names = ("allowed", "model", "setting", "error", "unknowns", "all of it, ms", "ratio")
+    for name in names:
+        table.add_column(
+            name, justify="left" if name in ("model", "setting") else "right", no_wrap=name != "setting"
+        )
+    for result in results:
+        for trial in (result.wave, result.fea):
+            first = trial is result.wave
+            cells = [
+                f"{100 * result.tolerance:g} %" if first else "",
+                f"{trial.model} {trial.solver}".strip(),
+                trial.setting,
+                f"{100 * trial.error:.2g} %",
+                str(trial.dofs),
+            ]
+            if dynamic:
+                cells += [f"{trial.set_up_s:.3f} s", f"{trial.step_us:.2f}", f"{trial.dt_ms:g}"]
+            else:
+                cells.append(f"{1e-3 * trial.step_us:.2f}")
+            table.add_row(*cells, "" if first else f"{result.ratio:.0f}")
+    return table

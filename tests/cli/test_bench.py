@@ -1,0 +1,56 @@
+"""`trocar bench` prints tables or JSON; the figures themselves are tested where they are measured."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from trocar.cli import application
+from trocar.study import equal_error, tick_cost
+
+ARGUMENTS = ["bench", "step", "--tissue", "uterus", "--diameter-mm", "16", "--tolerance", "0.01"]
+
+
+@pytest.fixture(autouse=True)
+def _small(monkeypatch):
+    monkeypatch.setattr(tick_cost, "_RELEASED_TICKS", 400)
+    monkeypatch.setattr(tick_cost, "_SINGLE_TICKS", 100)
+    monkeypatch.setattr(equal_error, "WAVE_LADDER", ((32, 12, 2),))
+    monkeypatch.setattr(equal_error, "STATIC_LADDER", (32,))
+    monkeypatch.setattr(equal_error, "FEA_LADDER", ((3.0, 0.5, 0.2, 0.5),))
+    monkeypatch.setattr(equal_error, "_FEA_STEP_LENGTHS", (0.5e-3,))
+    monkeypatch.setattr(equal_error, "_QUICK", (96, 16, 3, 1))
+
+
+def run(*arguments):
+    result = CliRunner().invoke(application(), list(arguments), env={"COLUMNS": "120", "NO_COLOR": "1"})
+    if result.exception is not None:
+        raise result.exception
+    return result.stdout
+
+
+def test_step_prints_a_tick_and_its_floor():
+    text = run(*ARGUMENTS)
+    assert "memory floor" in text
+    assert "16 mm" in text
+
+
+def test_step_as_json():
+    content = json.loads(run(*ARGUMENTS, "--json"))
+    assert content["ticks"][0]["diameter_mm"] == 16
+    assert content["compile_s"] > 0
+
+
+def test_cost_names_both_models():
+    arguments = ("bench", "cost", "--tissue", "uterus", "--diameter-mm", "12", "--quick")
+    text = run(*arguments)
+    assert "wave-solid" in text
+    assert "superlu" in text or "pardiso" in text
+    content = json.loads(run(*arguments, "--json"))
+    assert content["dynamic"][0]["wave"]["model"] == "wave-solid"
+    assert len(content["static"][0]["tried"]) == 2
+
+
+@pytest.mark.parametrize("command", ["step", "cost"])
+def test_help_has_an_example(command):
+    assert f"Example: trocar bench {command}" in run("bench", command, "--help")
