@@ -126,3 +126,14 @@ def test_lines_are_nested_when_refined() -> None:
     coarse, fine = (graded_lines(0.0, 2.0, spacing, refinement) for refinement in (0, 2))
     np.testing.assert_allclose(fine[::4], coarse, atol=1e-14)
     assert np.all(np.diff(coarse) < 1.3 * spacing(0.5 * (coarse[1:] + coarse[:-1])))
+
+
+def test_one_element_has_no_modes_without_energy() -> None:
+    """Reduced integration throughout would leave 12 motions without energy, not 6, and a singular mass."""
+    brick = Bricks(
+        x=np.array([0.0, 1.0]), y=np.array([0.0, 2.0]), z=np.array([-0.5, 0.0]), slab_layer=np.array([0])
+    )
+    energies = np.linalg.eigvalsh(stiffness(brick, (layer(),)).toarray())
+    assert np.count_nonzero(energies < 1e-10 * energies.max()) == 6
+    masses = np.linalg.eigvalsh(mass(brick, (layer(),)).toarray())
+    assert masses.min() > 1e-3 * masses.max()

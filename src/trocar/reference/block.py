@@ -32,10 +32,10 @@ class MeshSize:
         InputError: a number is not possible.
     """
 
-    per_radius: float = 3.0
-    growth: float = 0.4
-    top: float = 0.2
-    deepening: float = 0.35
+    per_radius: float = 3.5
+    growth: float = 0.33
+    top: float = 0.25
+    deepening: float = 0.4
     side: float = 0.15
     refinement: int = 0
 
