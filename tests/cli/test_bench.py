@@ -15,8 +15,8 @@ ARGUMENTS = ["bench", "step", "--tissue", "uterus", "--diameter-mm", "16", "--to
 def _small(monkeypatch):
     monkeypatch.setattr(tick_cost, "_RELEASED_TICKS", 400)
     monkeypatch.setattr(tick_cost, "_SINGLE_TICKS", 100)
-    monkeypatch.setattr(equal_error, "WAVE_LADDER", ((32, 12, 2),))
-    monkeypatch.setattr(equal_error, "STATIC_LADDER", (32,))
+    monkeypatch.setattr(equal_error, "WAVE_LADDER", ((64, 16, 3),))
+    monkeypatch.setattr(equal_error, "STATIC_LADDER", (64,))
     monkeypatch.setattr(equal_error, "FEA_LADDER", ((3.0, 0.5, 0.2, 0.5),))
     monkeypatch.setattr(equal_error, "_FEA_STEP_LENGTHS", (0.5e-3,))
     monkeypatch.setattr(equal_error, "_QUICK", (96, 16, 3, 1))

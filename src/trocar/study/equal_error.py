@@ -8,7 +8,7 @@ can be trusted.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import partial
 from itertools import pairwise
@@ -301,13 +301,30 @@ def _mesh_in_words(setting: Setting) -> str:
     return f"{per_radius:g} a radius, growth {growth:g}"
 
 
+def settled(tried: Sequence[Trial], tolerance: float) -> list[Trial]:
+    """Return the settings that keep to a tolerance together with all finer ones of the same model and step.
+
+    One that gets there only because its errors happen to cancel is left out.
+
+    Args:
+        tried: settings, those of one model and step length from coarse to fine.
+        tolerance: largest error allowed [1].
+    """
+
+    def finer(place: int) -> list[Trial]:
+        own = tried[place]
+        return [t for t in tried[place:] if (t.model, t.dt_ms) == (own.model, own.dt_ms)]
+
+    return [trial for i, trial in enumerate(tried) if all(t.error <= tolerance for t in finer(i))]
+
+
 def _cheapest(case: str, tolerance: float, converged: float, tried: list[Trial]) -> EqualError:
     def cost(trial: Trial) -> float:
         return trial.step_us / (trial.dt_ms or 1.0)
 
     best = {}
     for model in ("wave-solid", "fea"):
-        enough = [trial for trial in tried if trial.model == model and trial.error <= tolerance]
+        enough = [trial for trial in settled(tried, tolerance) if trial.model == model]
         if not enough:
             least = min(trial.error for trial in tried if trial.model == model)
             raise SolverError(
