@@ -4,10 +4,10 @@ In a linear model twice the force is always twice the deflection. In a neo-Hooke
 moduli at small strain and follows large deformation, it is not. The difference comes from four things, and
 each has a measure that any linear model can give from the displacement of its faces:
 
-* a layer is squeezed: the largest nominal strain through each layer, |u_z(upper) - u_z(lower)| / thickness.
+* a layer is squeezed: the largest nominal strain ``|u_z(upper) - u_z(lower)| / thickness`` through any layer.
   The law leaves its tangent to first order in it;
 * the block changes shape: the largest deflection over the thickness of all layers;
-* the surface turns: the steepest slope s = |grad u_z|. Linear theory leaves out s^2 / 2 against 1;
+* the surface turns: the steepest slope ``s = |grad u_z|``. Linear theory leaves out s^2 / 2 against 1;
 * layers are stretched as a drum's skin is. With s the slope of its upper face, and if it cannot draw in
   from around, a layer of thickness h stores (Landau and Lifshitz 1986, Theory of Elasticity, sec. 14)
 
