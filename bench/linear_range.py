@@ -1,6 +1,6 @@
 """Where linear elasticity ends: tissues as neo-Hookean solids in CalculiX, and the criterion there.
 
-    python bench/linear_range.py [--jobs 2] [--only skin]
+    python bench/linear_range.py [--jobs 2] [--only skin] [--per-radius 3]
 
 A row is a tissue, a support, a tool in the middle of a block of 60 x 60 mm. "3 %" is the smallest force [N]
 at which the largest deflection of some layer, per newton, differs by 3 % from the same mesh's at next to no
@@ -17,7 +17,8 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from math import nan
 from pathlib import Path
 
@@ -37,11 +38,24 @@ PAPER_FORCE = 5.0  # [N], what the 2014 paper presses with
 DEFLECTION_SHARES = (5e-4, 4e-3, 8e-3, 0.014, 0.022, 0.035, 0.05, 0.07, 0.095, 0.13, 0.18, 0.25)
 """Linear deflection over thickness at the forces that are run; at the first, both laws agree."""
 
+HELD_OUT = (  # name, fat [m], support, tool [m]; run only once the thresholds were fixed
+    ("firm", 8e-3, Support.BASE, 6e-3),
+    ("firm", 14e-3, Support.EDGES_AND_BASE, 4e-3),
+    ("firm", 7e-3, Support.EDGES, 6e-3),
+    ("slack", 8e-3, Support.EDGES_AND_BASE, 6e-3),
+    ("slack", 14e-3, Support.BASE, 4e-3),
+    ("slack", 7e-3, Support.EDGES, 10e-3),
+    ("tran", 7e-3, Support.EDGES, 6e-3),
+    ("mid", 7e-3, Support.BASE, 12e-3),
+)
+
 MODULI = {  # of fat, dermis, epidermis [Pa]
     "mid": (5e3, 2e5, 1e6),
     "soft": (2e3, 3.5e4, 5e5),
     "stiff": (2e4, 1e6, 1e6),
     "tran": (2.5e3, 6.66e6, 7.2e5),  # Tran et al.: C10 of a forearm by imaging and indentation, E = 6 C10
+    "firm": (1e4, 2e6, 5e5),
+    "slack": (3e3, 1.5e4, 2e5),
 }
 
 
@@ -95,22 +109,27 @@ def cases() -> Iterator[Case]:
         yield Case(tissue=trocar.tissue(name), support=Support.EDGES, diameter=8e-3)
     for name in ("stomach-wall", "uterus"):
         yield Case(tissue=trocar.tissue(name), support=Support.BASE, diameter=8e-3)
-    for name in MODULI:
+    for name in ("mid", "soft", "stiff", "tran"):
         for fat in (5e-3, 10e-3, 20e-3):
             for diameter in (5e-3, 8e-3):
                 yield Case(tissue=literature(name, fat), support=Support.BASE, diameter=diameter)
         yield Case(tissue=literature(name, 10e-3), support=Support.EDGES_AND_BASE, diameter=5e-3)
         yield Case(tissue=literature(name, 20e-3), support=Support.EDGES_AND_BASE, diameter=8e-3)
         yield Case(tissue=literature(name, 10e-3), support=Support.EDGES, diameter=8e-3)
+    for name, fat, support, diameter in HELD_OUT:
+        tissue = replace(literature(name, fat), name=f"held out: {name}, fat {1e3 * fat:.0f} mm")
+        yield Case(tissue=tissue, support=support, diameter=diameter)
 
 
-def measured(case: Case) -> Row:
-    """Run one row."""
+def measured(case: Case, per_radius: float) -> Row:
+    """Run one row with so many elements along the tool's radius."""
     press = Press(x=SIZE[0] / 2, y=SIZE[1] / 2, radius=case.diameter / 2, force=1.0)
     linear = FEASolid(case.tissue, size=SIZE, support=case.support, around=(press,), solver="superlu")
     criterion = linear_range(linear, case.tissue, (press,))
     share = criterion.deflection_share
-    block = NeoHookeanBlock(tissue=case.tissue, size=SIZE, support=case.support, radius=press.radius)
+    block = NeoHookeanBlock(
+        tissue=case.tissue, size=SIZE, support=case.support, radius=press.radius, per_radius=per_radius
+    )
     with tempfile.TemporaryDirectory() as folder:
         steps = block.pressed(tuple(wished / share for wished in DEFLECTION_SHARES), Path(folder))
     compliance = np.array([step.deflection for step in steps]) / np.array([[step.force] for step in steps])
@@ -152,6 +171,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--only", default="", help="rows whose tissue's name contains this")
+    parser.add_argument("--per-radius", type=float, default=2.0, help="elements along the tool's radius")
     arguments = parser.parse_args()
     chosen = [case for case in cases() if arguments.only in case.tissue.name]
     print("| tissue | support | tool mm | 3 % at N | first in | strain | share | slope | stretching ", end="")
@@ -159,7 +179,7 @@ def main() -> None:
     print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")
     rows = []
     with ProcessPoolExecutor(arguments.jobs) as pool:
-        for row in pool.map(measured, chosen):
+        for row in pool.map(partial(measured, per_radius=arguments.per_radius), chosen):
             rows.append(row)
             print(line(row), flush=True)
     reached = [row for row in rows if row.force == row.force]
