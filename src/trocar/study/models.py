@@ -19,7 +19,8 @@ from trocar.waves.membrane import WaveMembrane
 from trocar.waves.solid import WaveSolid
 
 AnyModel = TissueModel[Any]
-LEAST_MODES, MOST_MODES = 48, 1024  # a side; 1024 x 1024 wavenumbers of three layers fill 100 MiB
+LEAST_MODES, MOST_MODES = 48, 512  # a side; 512 x 512 wavenumbers of three layers fill 100 MiB
+MOST_MEMBRANE_MODES = 128  # membranes answer short waves less than elastic blocks do
 _SHARE_LEFT_OUT = (
     0.004  # by the rule's envelope; of a homogeneous block a quarter of it is missing, of skin far less
 )
@@ -31,10 +32,11 @@ def _wave_membrane(case: Case) -> AnyModel:
     widest = max(tool.diameter / 2 for tool in case.tools)
     smallest = min(tool.diameter / 2 for tool in case.tools)
     radii = RADII
+    (m, n), most = series_modes(case), MOST_MEMBRANE_MODES
     if not (RADII[0] <= smallest and widest <= RADII[-1]):
         radii = (0.75 * smallest, smallest, widest, 1.5 * widest)
     return WaveMembrane.fitted(
-        case.tissue, size=case.size, support=case.support, modes=series_modes(case), radii=radii
+        case.tissue, size=case.size, support=case.support, modes=(min(m, most), min(n, most)), radii=radii
     )
 
 

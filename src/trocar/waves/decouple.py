@@ -129,58 +129,79 @@ def _fill_complex_modes(
     poles, right = np.linalg.eig(system)
     left = np.linalg.inv(right)
     poles, right, left = poles.astype(complex), right.astype(complex), left.astype(complex)
-    condition = np.linalg.norm(right, axis=-2) * np.linalg.norm(left, axis=-1)
-    for row, place in enumerate(np.flatnonzero(where)):
-        found = None
-        if condition[row].max() > _ILL_CONDITIONED:
-            found = _pair_with_double_pole(system[row], poles[row], condition[row])
-        matrices, columns, rows = found or _pair(poles[row], right[row], left[row])
-        rebuilt = np.einsum("asi,sij,sjb->ab", columns, matrices, rows)
-        residual = np.abs(rebuilt - system[row]).max() / np.abs(system[row]).max()
-        if residual > _RESIDUAL:
-            raise SolverError(
-                f"damped modes: expected a residual below {_RESIDUAL:g}, got {residual:.2g}: more than two poles "
-                "coincide; change a layer's damping by a part in a thousand"
-            )
-        blocks.matrices[place] = matrices
-        blocks.entry[place] = rows
-        blocks.exit[place] = columns[:order]
+    condition = (np.linalg.norm(right, axis=-2) * np.linalg.norm(left, axis=-1)).max(axis=-1)
+    matrices = np.zeros((len(w), order, 2, 2))
+    columns, rows = np.zeros((len(w), 2 * order, order, 2)), np.zeros((len(w), order, 2, 2 * order))
+    real = (poles.imag == 0).sum(axis=-1)
+    for count in np.unique(real):
+        alike = real == count
+        matrices[alike], columns[alike], rows[alike] = _pair(poles[alike], right[alike], left[alike], count)
+    for row in np.flatnonzero(condition > _ILL_CONDITIONED):
+        found = _pair_with_double_pole(system[row], poles[row], left[row], right[row])
+        if found is not None:
+            matrices[row], columns[row], rows[row] = found
+    rebuilt = np.einsum("jasi,jsik,jskb->jab", columns, matrices, rows)
+    residual = (np.abs(rebuilt - system).max(axis=(-2, -1)) / np.abs(system).max(axis=(-2, -1))).max()
+    if residual > _RESIDUAL:
+        raise SolverError(
+            f"damped modes: expected a residual below {_RESIDUAL:g}, got {residual:.2g}: more than two poles "
+            "coincide; change a layer's damping by a part in a thousand"
+        )
+    blocks.matrices[where], blocks.entry[where], blocks.exit[where] = matrices, rows, columns[:, :order]
 
 
 def _pair(
-    poles: np.ndarray, right: np.ndarray, left: np.ndarray
+    poles: np.ndarray, right: np.ndarray, left: np.ndarray, real: int
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return real blocks (n, 2, 2), their columns (2n, n, 2) and rows (n, 2, 2n): sum of columns A rows = system."""
-    size = len(poles)
-    matrices = np.zeros((size // 2, 2, 2))
-    columns = np.zeros((right.shape[0], size // 2, 2))
-    rows = np.zeros((size // 2, 2, left.shape[1]))
-    upper = np.flatnonzero(poles.imag > 0)
-    real = np.flatnonzero(poles.imag == 0)
-    real = real[np.argsort(poles.real[real])]
-    block = 0
-    for i in upper:  # u = 2 Re(right w), w' = s w: x = (Re w, Im w)
-        a, b = poles[i].real, poles[i].imag
-        matrices[block] = [[a, -b], [b, a]]
-        columns[:, block, 0], columns[:, block, 1] = 2 * right[:, i].real, -2 * right[:, i].imag
-        rows[block, 0], rows[block, 1] = left[i].real, left[i].imag
-        block += 1
-    for first, second in zip(real[::2], real[1::2], strict=True):
-        for component, i in enumerate((first, second)):
-            matrices[block, component, component] = poles[i].real
-            columns[:, block, component] = right[:, i].real
-            rows[block, component] = left[i].real
-        block += 1
+    """Return real blocks of J systems with `real` real poles each: sum over blocks of columns A rows = system.
+
+    A conjugate pair w' = s w, u = 2 Re(right w) is the block of x = (Re w, Im w); two neighbouring real poles are one
+    diagonal block.
+
+    Args:
+        poles: shape (J, p), p even.
+        right: eigenvectors as columns, shape (J, a, p).
+        left: the inverse's rows, shape (J, p, b).
+        real: number of real poles of each system.
+
+    Returns:
+        Blocks (J, p/2, 2, 2), columns (J, a, p/2, 2) and rows (J, p/2, 2, b).
+    """
+    systems, size = poles.shape
+    pairs = (size - real) // 2
+    # Upper half plane first, then the real axis in ascending order, then the conjugates nobody needs.
+    kind = np.where(poles.imag > 0, 0, np.where(poles.imag == 0, 1, 2))
+    order = np.lexsort((poles.real, kind), axis=-1)
+    poles = np.take_along_axis(poles, order, axis=-1)
+    right = np.take_along_axis(right, order[:, None, :], axis=2)
+    left = np.take_along_axis(left, order[:, :, None], axis=1)
+    matrices = np.zeros((systems, size // 2, 2, 2))
+    columns = np.zeros((systems, right.shape[1], size // 2, 2))
+    rows = np.zeros((systems, size // 2, 2, left.shape[2]))
+    upper = poles[:, :pairs]
+    matrices[:, :pairs, 0, 0] = matrices[:, :pairs, 1, 1] = upper.real
+    matrices[:, :pairs, 0, 1], matrices[:, :pairs, 1, 0] = -upper.imag, upper.imag
+    columns[:, :, :pairs, 0], columns[:, :, :pairs, 1] = (
+        2 * right[..., :pairs].real,
+        -2 * right[..., :pairs].imag,
+    )
+    rows[:, :pairs, 0], rows[:, :pairs, 1] = left[:, :pairs].real, left[:, :pairs].imag
+    for component in (0, 1):
+        one = slice(pairs + component, pairs + real, 2)
+        matrices[:, pairs:, component, component] = poles[:, one].real
+        columns[:, :, pairs:, component] = right[..., one].real
+        rows[:, pairs:, component] = left[:, one].real
     return matrices, columns, rows
 
 
 def _pair_with_double_pole(
-    system: FloatArray, poles: np.ndarray, condition: FloatArray
+    system: FloatArray, poles: np.ndarray, left: np.ndarray, right: np.ndarray
 ) -> tuple[FloatArray, FloatArray, FloatArray] | None:
-    """Take the two worst-conditioned poles out by an ordered real Schur form, and pair the others.
+    """Take the two worst-conditioned poles of one system out by an ordered real Schur form, and pair the others.
 
     Returns None where those two are not alone near the real axis.
     """
+    condition = np.linalg.norm(right, axis=-2) * np.linalg.norm(left, axis=-1)
     pair = poles[np.argsort(condition)[-2:]]
     centre = pair.mean().real
     reach = 2 * np.abs(pair - centre).max() + 1e-6 * abs(centre)
@@ -193,13 +214,15 @@ def _pair_with_double_pole(
     rest_columns = basis[:, 2:] + basis[:, :2] @ coupling
     rest_poles, rest_right = np.linalg.eig(triangle[2:, 2:])
     rest_left = np.linalg.inv(rest_right) @ basis[:, 2:].T
+    real = int((rest_poles.imag == 0).sum())
+    vectors = (rest_columns @ rest_right).astype(complex)
     matrices, columns, rows = _pair(
-        rest_poles.astype(complex), (rest_columns @ rest_right).astype(complex), rest_left.astype(complex)
+        rest_poles[None].astype(complex), vectors[None], rest_left[None].astype(complex), real
     )
     return (
-        np.concatenate([triangle[None, :2, :2], matrices]),
-        np.concatenate([block_columns[:, None, :], columns], axis=1),
-        np.concatenate([block_rows[None], rows]),
+        np.concatenate([triangle[None, :2, :2], matrices[0]]),
+        np.concatenate([block_columns[:, None, :], columns[0]], axis=1),
+        np.concatenate([block_rows[None], rows[0]]),
     )
 
 
