@@ -44,11 +44,11 @@ def step(
 ) -> None:
     """Time one 1 ms tick of the live tissue with two tools, beside the machine's floor and other steps."""
     from trocar.study.tick_cost import tick_cost
-    from trocar.study.warm_up import compile_seconds
+    from trocar.study.warm_up import compile_steps
     from trocar.tissues.catalogue import tissue as preset
 
     layers = preset(tissue)
-    compiled = compile_seconds(layers)
+    compiled = compile_steps()
     costs = [
         tick_cost(layers, size=_SIZE, radius=5e-4 * diameter, tolerance=tolerance)
         for diameter in diameters_mm or (6.0, 8.0, 12.0)
@@ -72,11 +72,11 @@ def cost(
     """Compare waves and finite elements at equal measured error: a dynamic press, the study's static load."""
     from trocar.model import Press
     from trocar.study.equal_error import dynamic_press, static_study
-    from trocar.study.warm_up import compile_seconds
+    from trocar.study.warm_up import compile_steps
     from trocar.tissues.catalogue import tissue as preset
 
     layers = preset(tissue)
-    compiled = compile_seconds(layers)
+    compiled = compile_steps()
     tool = Press(x=_SIZE[0] / 2, y=_SIZE[1] / 2, radius=5e-4 * diameter_mm, force=0.1)
     dynamic, static = (_DYNAMIC[:1], _STATIC[:1]) if quick else (_DYNAMIC, _STATIC)
     results = {

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from time import perf_counter
 from typing import Any
 
-import numpy as np
-
 from trocar.errors import InputError
-from trocar.model import Press, Profile, TissueModel
+from trocar.model import Profile, TissueModel
 from trocar.reference.fea import FEASolid
 from trocar.study.experiment import Case
-from trocar.tissues import Layer, Tissue
 from trocar.waves.cutoff import modes_for
 from trocar.waves.fit import RADII
 from trocar.waves.membrane import WaveMembrane
@@ -90,14 +86,3 @@ def check_names(names: Sequence[str]) -> tuple[str, ...]:
         if name not in MODELS:
             raise InputError("models", f"one of {known}", name)
     return tuple(dict.fromkeys(names))
-
-
-def warm_up() -> float:
-    """Compile, or load from the cache, what the wave models compile; return the seconds it took [s]."""
-    began = perf_counter()
-    layer = Layer(name="pad", thickness=0.01, young_modulus=1e4, poisson_ratio=0.45, density=1000.0)
-    model = WaveSolid(Tissue(layers=(layer,)), size=(0.05, 0.05), modes=(2, 2), dynamic_modes=(2, 2))
-    press = (Press(x=0.02, y=0.02, radius=0.01, force=1.0, tilt=0.1),)
-    state = model.step(model.static(press), press, press, 1e-3)
-    model.displacement(state, np.zeros((1, 3)))
-    return perf_counter() - began

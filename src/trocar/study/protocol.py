@@ -18,10 +18,11 @@ from trocar.study.curves import CurveComparison, compare_curves
 from trocar.study.deflection import deflections, search_points
 from trocar.study.experiment import Case
 from trocar.study.film import Film, press_and_release
-from trocar.study.models import AnyModel, warm_up
+from trocar.study.models import AnyModel
 from trocar.study.plan import Plan
 from trocar.study.surface import Surface, surface
 from trocar.study.uncertainty import Refinement, Validation, refinement, validation
+from trocar.study.warm_up import compile_models
 from trocar.waves.solid import WaveSolid
 
 REFERENCE = "fea"
@@ -101,7 +102,7 @@ def run_study(plan: Plan, watch: Watch = lambda _what, _share: None) -> Study:
     """
     began = perf_counter()
     watch("compiling", 0.0)
-    compiled = warm_up()
+    compiled = compile_models()
     watch("press in the middle", 0.02)
     small = compare(plan.central(plan.small), (*JUDGED, REFERENCE))
     paper = compare(plan.central(plan.peak), (*JUDGED, REFERENCE))

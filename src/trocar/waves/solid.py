@@ -75,14 +75,6 @@ class WaveSolid:
     def _layers_s(self) -> ThinLayers:
         return horizontal_shear(self.tissue, base_held=self.support.base_held, refinement=self._refinement)
 
-    @cached_property
-    def _layers_wv(self) -> ThinLayers:
-        return vertical_and_along(self.tissue, base_held=self.support.base_held, refinement=self._refinement)
-
-    @cached_property
-    def _layers_s(self) -> ThinLayers:
-        return horizontal_shear(self.tissue, base_held=self.support.base_held, refinement=self._refinement)
-
     @property
     def modes(self) -> tuple[int, int]:
         """Highest m and n of the static series."""
