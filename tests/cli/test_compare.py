@@ -1,0 +1,40 @@
+"""trocar compare, as a user calls it."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from trocar.cli import main
+
+PRESS = str(Path(__file__).parent.parent.parent / "examples" / "press.toml")
+
+
+def test_a_table_names_layers_models_and_range(capsys):
+    assert main(["compare", PRESS, "--models", "wave-solid,wave-membrane"]) == 0
+    shown = capsys.readouterr().out
+    for word in ("epidermis", "wave-membrane", "in the linear range", "yes"):
+        assert word in shown
+
+
+def test_json_is_alone_on_stdout(capsys):
+    assert main(["compare", PRESS, "--models", "wave-solid", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["models"]["wave-solid"]["in_range"] is True
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (["nothing.toml"], "nothing.toml"),
+        ([PRESS, "--models", "fem"], "fem"),
+        ([PRESS, "--models", ","], "at least one"),
+        ([PRESS, "--models", "mesh-free"], "not built yet"),
+        ([], "'case'"),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_2(capsys, arguments, word):
+    assert main(["compare", *arguments]) == 2
+    told = capsys.readouterr().err
+    assert word in told
+    assert "Traceback" not in told
+    assert told.count("\n") == 1

@@ -1,0 +1,108 @@
+"""One case through several models."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from trocar.errors import InputError
+from trocar.study.case import load_case
+from trocar.study.compare import compare
+from trocar.study.models import MOST_MODES, check_names, series_modes
+from trocar.waves.solid import WaveSolid
+
+EXAMPLES = Path(__file__).parent.parent.parent / "examples"
+PRESS, PAIR, TAP = (load_case(EXAMPLES / f"{name}.toml") for name in ("press", "pair", "dynamic"))
+
+
+def test_a_ramp_up_and_down_is_followed_in_proportion():
+    result = compare(PRESS, ("wave-solid",))
+    history = result["wave-solid"]
+    assert history.force[0] == history.force[-1] == 0.0
+    assert history.force.max() == pytest.approx(PRESS.peak_force)
+    for depths in history.deflection.values():
+        assert depths == pytest.approx(depths.max() * history.force / PRESS.peak_force, abs=1e-15)
+    assert (history.block == np.max(list(history.deflection.values()), axis=0)).all()
+
+
+def test_the_largest_deflection_is_that_under_the_tool():
+    history = compare(PRESS, ("wave-solid",))["wave-solid"]
+    model = WaveSolid(PRESS.tissue, size=PRESS.size, modes=series_modes(PRESS))
+    (tool,) = PRESS.tools
+    centre = np.array([[*tool.position, 0.0]])
+    state = model.static((tool.press(tool.peak),))
+    for layer, depths in history.deflection.items():
+        # On so even a bowl the middle is the lowest point; the stiff epidermis dips a little off it.
+        assert depths.max() == pytest.approx(-model.displacement(state, centre, layer)[0, 2], rel=2e-3)
+
+
+def test_two_tools_add_up_point_by_point():
+    both = compare(PAIR, ("wave-solid",))["wave-solid"]
+    model = WaveSolid(PAIR.tissue, size=PAIR.size, modes=series_modes(PAIR))
+    middle = int(np.argmax(both.force))
+    state = model.static(PAIR.load_at(both.time[middle]))
+    under = np.array([[*tool.position, 0.0] for tool in PAIR.tools])
+    deepest = -model.displacement(state, under)[:, 2].min()
+    assert both.deflection["epidermis"][middle] == pytest.approx(deepest, rel=2e-3)
+
+
+def test_a_tap_leaves_the_tissue_moving_and_waves_agree_with_finite_elements():
+    coarse = replace(TAP, sampling=replace(TAP.sampling, period=2e-3))
+    result = compare(coarse, ("wave-solid", "fea"))
+    one, two = result["wave-solid"], result["fea"]
+    assert one.force[-1] == 0.0
+    assert one.deflection["dermis"][-1] != 0.0
+    for layer, depths in two.deflection.items():
+        assert one.deflection[layer] == pytest.approx(depths, abs=0.02 * depths.max())
+
+
+def test_what_comes_out_is_what_the_format_says():
+    plain = json.loads(json.dumps(compare(PRESS, ("wave-membrane",)).as_dict()))
+    assert plain["case"]["title"] == PRESS.title
+    (model,) = plain["models"].values()
+    assert set(model) == {"time_s", "force_n", "max_deflection_mm", "cpu_s", "dofs", "in_range"}
+    assert list(model["max_deflection_mm"]) == ["epidermis", "dermis", "fat"]
+    assert model["in_range"] is True
+    assert len(model["time_s"]) == len(model["force_n"]) == len(model["max_deflection_mm"]["fat"])
+
+
+def test_the_papers_load_is_outside_the_linear_range():
+    case = load_case(EXAMPLES / "paper-5n.toml")
+    found = compare(case, ("wave-solid",))["wave-solid"].linear_range
+    assert not found.inside
+    assert found.force_limit < 0.1
+
+
+def test_progress_is_told_to_the_end():
+    told = []
+    compare(PAIR, ("wave-solid",), watch=lambda model, share: told.append((model, share)))
+    assert told == [("wave-solid", 0.5), ("wave-solid", 1.0)]
+
+
+@pytest.mark.parametrize(
+    ("names", "word"),
+    [
+        ((), "at least one"),
+        (("fem",), "fem"),
+        (("mass-spring",), "not built yet"),
+        (("wave-mesh",), "not built yet"),
+    ],
+)
+def test_models_that_are_not_there_are_refused(names, word):
+    with pytest.raises(InputError, match=word):
+        check_names(names)
+
+
+def test_a_model_named_twice_runs_once():
+    assert check_names(("fea", "wave-solid", "fea")) == ("fea", "wave-solid")
+
+
+def test_a_tool_too_small_for_the_block_is_refused_by_the_waves():
+    (tool,) = PRESS.tools
+    tiny = replace(PRESS, size=(0.5, 0.5), tools=(replace(tool, diameter=1e-3),))
+    with pytest.raises(InputError, match="take a smaller block"):
+        compare(tiny, ("wave-solid",))
+    wide = replace(PRESS, size=(0.5, 0.5), tools=(replace(tool, diameter=5e-3),))
+    assert max(series_modes(wide)) <= MOST_MODES
