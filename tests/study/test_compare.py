@@ -106,3 +106,15 @@ def test_a_tool_too_small_for_the_block_is_refused_by_the_waves():
         compare(tiny, ("wave-solid",))
     wide = replace(PRESS, size=(0.5, 0.5), tools=(replace(tool, diameter=5e-3),))
     assert max(series_modes(wide)) <= MOST_MODES
+
+
+def test_membranes_that_could_not_be_fitted_are_out_of_range():
+    """One even layer answers short waves as 1/k, which no sheet with tension and bending does."""
+    (tool,) = PRESS.tools
+    even = replace(PRESS.tissue, layers=PRESS.tissue.layers[-1:])
+    thick = replace(PRESS, tissue=even, tools=(replace(tool, peak=1e-5, rate=1e-5, diameter=1.5e-3),))
+    history = compare(thick, ("wave-membrane",))["wave-membrane"]
+    assert history.linear_range.inside
+    assert history.fit_error > 0.05
+    assert not history.in_range
+    assert compare(PRESS, ("wave-membrane",))["wave-membrane"].fit_error < 0.05

@@ -51,6 +51,7 @@ def _print(result: Comparison) -> None:
     from rich.console import Console
     from rich.table import Table
 
+    from trocar.study.history import LARGEST_FIT_ERROR
     from trocar.units import MILLIMETRE
 
     console = Console()
@@ -72,7 +73,15 @@ def _print(result: Comparison) -> None:
     table.add_row("unknowns", *(f"{history.dofs}" for history in result.histories))
     limits = [history.linear_range for history in result.histories]
     table.add_row("in the linear range", *("yes" if limit.inside else "NO" for limit in limits))
+    fits = [history.fit_error for history in result.histories]
+    if any(fits):
+        table.add_row("misfit", *(f"{100 * fit:.1f} %" if fit else "" for fit in fits))
     console.print(table)
+    if max(fits) > LARGEST_FIT_ERROR:
+        console.print(
+            f"Outside the range of the fitted membranes: they miss the layered solid by {100 * max(fits):.0f} %.",
+            style="bold",
+        )
     if not all(limit.inside for limit in limits):
         least = min(limit.force_limit for limit in limits)
         console.print(

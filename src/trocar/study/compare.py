@@ -76,5 +76,5 @@ def _plain(history: History) -> dict[str, object]:
         },
         "cpu_s": history.cpu_seconds,
         "dofs": history.dofs,
-        "in_range": history.linear_range.inside,
+        "in_range": history.in_range,
     }

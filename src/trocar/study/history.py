@@ -16,6 +16,7 @@ from trocar.study.linear_range import LinearRange, linear_range
 from trocar.study.models import AnyModel
 
 Progress = Callable[[float], None]
+LARGEST_FIT_ERROR = 0.05  # what the study asks of fitted membranes
 _IMPLICIT_STEP = 2.5e-4  # [s] of finite elements: a hundredth of a 40 Hz period, 0.1 % of its phase
 _MOST_IMPLICIT_STEPS = 4000  # in one case: a longer one takes longer steps, its load being slower too
 
@@ -33,6 +34,7 @@ class History:
         setup_seconds: the part of it spent before the first sample [s].
         dofs: unknowns solved for.
         linear_range: how far the largest load of all tools together lies from the end of the linear range.
+        fit_error: how far a fitted model missed what it was fitted to [1]; 0 where nothing was fitted.
     """
 
     model: str
@@ -43,6 +45,12 @@ class History:
     setup_seconds: float
     dofs: int
     linear_range: LinearRange
+    fit_error: float
+
+    @property
+    def in_range(self) -> bool:
+        """Whether the model is stated for this case: inside the linear range, and fitted where it is a fit."""
+        return self.linear_range.inside and self.fit_error <= LARGEST_FIT_ERROR
 
     @property
     def block(self) -> FloatArray:
@@ -78,6 +86,7 @@ def run(
         cpu_seconds=done - began,
         setup_seconds=setup - began,
         dofs=model.dofs,
+        fit_error=getattr(model, "fit_error", None) or 0.0,
         linear_range=linear_range(model, case.tissue, peaks, furthest),
     )
 

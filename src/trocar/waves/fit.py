@@ -41,6 +41,20 @@ _SLOWER = 3.0  # times the slowest layer's retardation time: the most a sheet or
 
 
 @dataclass(frozen=True)
+class Fit:
+    """What a fit found.
+
+    Attributes:
+        stack: the coefficients.
+        error: largest relative difference from the solid, of any face's deflection under the middle of a central
+            tool of any of the radii [1]. Some tissues no stack of sheets can imitate: look at it.
+    """
+
+    stack: Stack
+    error: float
+
+
+@dataclass(frozen=True)
 class _Target:
     """What the solid does, and how a compliance per wavenumber turns into deflections along the profile."""
 
@@ -53,7 +67,7 @@ class _Target:
 
 def fitted_stack(
     tissue: Tissue, *, size: tuple[float, float], support: Support, radii: tuple[float, ...] = RADII
-) -> Stack:
+) -> Fit:
     """Fit a stack of sheets, one per layer, to `WaveSolid`'s response.
 
     Args:
@@ -71,7 +85,14 @@ def fitted_stack(
     for sheet, layer in zip(stack.sheets, tissue.layers, strict=True):
         half = 0.5 * (layer.prestress_x - layer.prestress_y) * layer.thickness
         sheets.append(replace(sheet, tension_x=sheet.tension_x + half, tension_y=sheet.tension_y - half))
-    return replace(stack, sheets=tuple(sheets))
+    return Fit(stack=replace(stack, sheets=tuple(sheets)), error=_error(stack, target))
+
+
+def _error(stack: Stack, target: _Target) -> float:
+    under = target.profile[:: len(_STATIONS)]
+    wanted = under @ target.compliance
+    reached = under @ _response(_coefficients(stack), len(stack.sheets), target.at)
+    return float(np.abs(reached / wanted - 1).max())
 
 
 def _evenly_prestressed(layer: Layer) -> Layer:

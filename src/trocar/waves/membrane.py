@@ -33,6 +33,7 @@ class WaveMembrane:
         size: sides a, b [m].
         modes: highest m and n of the series.
         support: whose block the coefficients describe; told to whoever asks, it changes nothing here.
+        fit_error: how far the fit that made the coefficients missed its target [1]; None where there was none.
 
     Raises:
         InputError: a size or mode count is impossible.
@@ -46,8 +47,10 @@ class WaveMembrane:
         size: tuple[float, float],
         modes: tuple[int, int] = (48, 48),
         support: Support | str = Support.EDGES,
+        fit_error: float | None = None,
     ) -> None:
         self.stack = stack
+        self.fit_error = fit_error
         self.size = size
         self.support = Support(support)
         self.layer_names = tuple(sheet.name for sheet in stack.sheets)
@@ -84,12 +87,8 @@ class WaveMembrane:
         radii: tuple[float, ...] = RADII,
     ) -> WaveMembrane:
         """Build one with coefficients fitted to `WaveSolid`'s response (see `fit`) under tools of these radii [m]."""
-        return cls(
-            fitted_stack(tissue, size=size, support=Support(support), radii=radii),
-            size=size,
-            modes=modes,
-            support=support,
-        )
+        fit = fitted_stack(tissue, size=size, support=Support(support), radii=radii)
+        return cls(fit.stack, size=size, modes=modes, support=support, fit_error=fit.error)
 
     @property
     def modes(self) -> tuple[int, int]:
