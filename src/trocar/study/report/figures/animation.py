@@ -22,15 +22,17 @@ from trocar.study.film import Film
 from trocar.study.report.figures.axonometry import View, colours, draw_surface, fit, quads
 from trocar.study.report.figures.block import enlargement
 from trocar.study.report.figures.film import DENT
-from trocar.study.report.figures.style import DEPTHS, GREY, LAYER_COLOURS, LAYER_STYLES, VERMILION, settings, three
+from trocar.study.report.figures.style import BLACK, DEPTHS, GREY, LAYER_COLOURS, LAYER_STYLES, VERMILION, settings, three
 from trocar.units import MILLIMETRE, MILLISECOND
 
 SLOWER = 20  # times slower than real: 180 ms last 3.6 s, and 2 ms are the 40 ms of a frame
 PAUSE = 700  # [ms] on the last frame before the film begins again
 TICK = 10  # [ms] the unit of time in a GIF
-SHADES = 96  # colours; enough for smooth shading, few enough for a small file
+SHADES = 96  # colours of the face; enough for smooth shading, few enough for a small file
+PURE = ("#ffffff", BLACK, GREY, "#e8eaed", VERMILION, *LAYER_COLOURS)  # colours of lines, each with its pale edges
+EDGES = (1.0, 0.7, 0.4)  # how strong, from the line to what the smoothing of its edge leaves
 SIZE, DOTS = (7.2, 3.7), 100  # [in], [1/in]
-KEEP = 2  # of the film's grid lines every second is drawn
+KEEP = 1  # every how many of the film's grid lines is drawn
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,7 +59,7 @@ def animation(film: Film) -> Moving:
     with settings():
         pictures = _frames(film)
     deepest = int(np.argmax(-film.height.min(axis=(1, 2))))
-    palette = pictures[deepest].quantize(SHADES, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    palette = _palette(pictures[deepest])
     indexed = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
     gaps = np.diff(film.time) / MILLISECOND * SLOWER
     durations = [max(TICK, TICK * round(float(gap) / TICK)) for gap in gaps] + [PAUSE]
@@ -77,6 +79,19 @@ def animation_alt(film: Film) -> str:
         f"{film.force.max():g} N, the top face sinks {three(float(top.max()) / MILLIMETRE)} mm, the tool lets go, and "
         f"the face springs back within about {1e3 * _return_time(film):.0f} ms and swings a few times before it rests."
     )
+
+
+def _palette(picture: Image.Image) -> Image.Image:
+    """Return an image whose palette holds the lines' colours unmixed, and the commonest of the picture."""
+    common = picture.quantize(SHADES, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    values = list(common.getpalette() or [])[: 3 * SHADES]
+    for name in PURE:
+        colour = np.array(mpl.colors.to_rgb(name))
+        for share in EDGES:
+            values += [round(255 * part) for part in 1 - share * (1 - colour)]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(values)
+    return palette
 
 
 def _return_time(film: Film) -> float:
