@@ -6,13 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trocar.model import Support
+from trocar.model import FloatArray, Support
 from trocar.study.compare import Comparison
 from trocar.study.protocol import MODEL, REFERENCE, Study
 from trocar.study.report.figures.style import label, three
 from trocar.study.report.figures.supports import WORDS
 from trocar.study.report.linear_range import Ranges
 from trocar.study.report.table import percent
+from trocar.study.statistics import t_test
 from trocar.tissues.catalogue import record
 from trocar.units import MILLIMETRE, MILLISECOND
 
@@ -81,7 +82,7 @@ def answer(study: Study, ranges: Ranges | None) -> Answer:
     verdict, inside = _paper_verdict(study, ranges)
     return Answer(
         paragraph=paragraph,
-        limits=(verdict, *_limits(study)),
+        limits=(verdict if inside is not False else f"{verdict} That is not a prediction.", *_limits(study)),
         figures=(
             Figure(value=percent(error), meaning=f"largest difference of {label(MODEL)} in any layer"),
             Figure(value=percent(by_membrane), meaning=f"the same of {label(MEMBRANE)}"),
@@ -91,6 +92,19 @@ def answer(study: Study, ranges: Ranges | None) -> Answer:
         paper_inside=inside,
         paper_verdict=verdict,
     )
+
+def overlooked(curve: FloatArray) -> float:
+    """Return how much too far a model could deflect at every moment and still pass the published t-test [1].
+
+    Args:
+        curve: samples of the reference, shape (n,).
+    """
+    low, high = 0.0, 10.0
+    for _ in range(50):
+        middle = (low + high) / 2
+        low, high = (low, middle) if t_test((1 + middle) * curve, curve).rejected else (middle, high)
+    return low
+
 
 def _limits(study: Study) -> tuple[str, ...]:
     sentences = []
@@ -130,11 +144,10 @@ def _paper_verdict(study: Study, ranges: Ranges | None) -> tuple[str, bool | Non
         return f"{said}: inside the linear range.", True
     if verdict is not None:
         return (
-            f"{said}: outside the linear range ({verdict.limiting}; it ends at {three(verdict.force_limit)} N). "
-            "That is not a prediction."
+            f"{said}: outside the linear range, which ends at {three(verdict.force_limit)} N ({verdict.limiting})."
         ), False
     if depth > thickness:
-        return f"{said}, which cannot be: far outside the linear range. That is not a prediction.", False
+        return f"{said}, which cannot be: the load is far outside the linear range.", False
     return f"{said}; whether that lies inside the linear range is not assessed.", None
 
 def _at_peak(comparison: Comparison, model: str) -> float:

@@ -13,11 +13,11 @@ from trocar import __version__
 from trocar.study.film import PRESS
 from trocar.study.protocol import MARGIN, REFERENCE, Study
 from trocar.study.report import protocol_tables, result_tables, statistic_tables
-from trocar.study.report.answer import answer
+from trocar.study.report.answer import answer, overlooked
 from trocar.study.report.figures.animation import Moving, animation_alt
 from trocar.study.report.linear_range import Ranges
 from trocar.study.report.picture import Picture
-from trocar.study.report.table import percent
+from trocar.study.report.table import Table, percent
 from trocar.units import MILLISECOND
 
 CONTENTS = (
@@ -90,7 +90,7 @@ def report_page(
         agreement=statistic_tables.agreement_table(study),
         uncertainty=statistic_tables.uncertainty_table(study),
         equivalence=statistic_tables.equivalence_table(study),
-        strength=result_tables.strength_table(study),
+        strength=result_tables.strength_table(study, predicted=said.paper_inside is not False),
         cost=result_tables.cost_table(study),
         ledger=statistic_tables.ledger_rows(tuple(ledger)),
         tissue=protocol_tables.tissue_table(study),
@@ -109,13 +109,14 @@ def report_page(
         small=f"{plan.small:g} N",
         peak=f"{plan.peak:g} N",
         margin=percent(MARGIN),
+        overlooked=percent(overlooked(study.paper[REFERENCE].block)),
         samples=study.paper[REFERENCE].time.size,
         verdicts=_verdicts(ledger),
         created=created,
     )
 
 
-def _deflections(study: Study, key: str, note: str = ""):  # type: ignore[no-untyped-def]
+def _deflections(study: Study, key: str, note: str = "") -> Table:
     name, comparison = result_tables.cases(study)[key]
     return result_tables.deflection_table(comparison, f"Largest deflections: {name}.", note)
 

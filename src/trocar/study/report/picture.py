@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from trocar.study.report.figures.style import settings
 
+RASTER = 220  # [1/in] of the shaded surfaces inside a drawing
 _NOTHING_ABOUT_THE_MAKER = dict.fromkeys(("Creator", "Date", "Format", "Type"))
 
 
@@ -34,7 +35,7 @@ class Picture:
         """Return the content of an SVG file: text as outlines, so that it needs no font."""
         stream = StringIO()
         with settings():
-            self.figure.savefig(stream, format="svg", metadata=_NOTHING_ABOUT_THE_MAKER)
+            self.figure.savefig(stream, format="svg", dpi=RASTER, metadata=_NOTHING_ABOUT_THE_MAKER)
         return stream.getvalue()
 
     def inline_svg(self) -> str:

@@ -6,7 +6,7 @@ from trocar import __version__
 from trocar.study.plan import PERIOD, RATE, TAP
 from trocar.study.protocol import Study
 from trocar.study.report.figures.supports import WORDS
-from trocar.study.report.table import Table
+from trocar.study.report.table import Table, count
 from trocar.tissues.catalogue import record
 from trocar.tissues.record import Property, Status
 from trocar.units import DEGREE, MILLIMETRE, MILLISECOND
@@ -30,8 +30,8 @@ def protocol_table(study: Study) -> Table:
             f"{plan.peak:g} N, {ramp:g} s up and {ramp:g} s down; besides, {plan.small:g} N, which linear theory can bear",
         ),
         ("load in the wave model", "none: its equation 5 only releases an initial shape", "the same traction in every model"),
-        ("wave model", "one membrane, one mode, of the dermis", f"{study.small['wave-solid'].dofs:,} unknowns (WaveSolid), {study.small['wave-membrane'].dofs:,} (WaveMembrane)".replace(",", " ")),
-        ("finite elements", "program, elements and mesh not stated", f"20-node bricks, {study.small['fea'].dofs:,} unknowns in a quarter of the block".replace(",", " ")),
+        ("wave model", "one membrane, one mode, of the dermis", f"{count(study.small['wave-solid'].dofs)} unknowns (WaveSolid), {count(study.small['wave-membrane'].dofs)} (WaveMembrane)"),
+        ("finite elements", "program, elements and mesh not stated", f"20-node bricks, {count(study.small['fea'].dofs)} unknowns in a quarter of the block"),
         ("sampling", "not stated; its t critical fits 81 samples a model", f"{study.small['fea'].time.size} samples, every {PERIOD:g} s of {2 * ramp:g} s"),
         ("tool at an angle", "drawn, the angle not stated", f"{plan.tilt / DEGREE:g}° from the normal, {plan.small:g} N along the tool"),
         ("two tools", "drawn, places not stated", f"at x = {places}, {plan.small:g} N each"),

@@ -11,7 +11,7 @@ from trocar.study.protocol import JUDGED, REFERENCE, Study
 from trocar.study.report.figures.style import label, three
 from trocar.study.report.figures.supports import WORDS
 from trocar.study.report.linear_range import Ranges
-from trocar.study.report.table import Table, percent
+from trocar.study.report.table import Table, count, percent
 from trocar.units import KILOPASCAL, MILLIMETRE
 
 NOT_ASSESSED = "not assessed"
@@ -107,8 +107,8 @@ def range_table(study: Study, ranges: Ranges | None) -> Table:
     )  # fmt: skip
 
 
-def strength_table(study: Study) -> Table:
-    """Return the largest stress of each layer beside what it bears."""
+def strength_table(study: Study, *, predicted: bool) -> Table:
+    """Return the largest stress of each layer beside what it bears; `predicted`: whether the paper's load is inside."""
     rows = []
     for layer, strength in study.strength.items():
         known = isfinite(strength.tensile_strength)
@@ -124,7 +124,7 @@ def strength_table(study: Study) -> Table:
     small, peak = f"{study.plan.small:g} N", f"{study.plan.peak:g} N"
     return Table(
         caption="Largest von Mises stress of each layer, prestress included, and its tensile strength.",
-        head=("layer", f"{small} / kPa", f"{peak} / kPa (not a prediction)", "tensile strength / kPa", f"share at {small}"),
+        head=("layer", f"{small} / kPa", f"{peak} / kPa" if predicted else f"{peak} / kPa (not a prediction)", "tensile strength / kPa", f"share at {small}"),
         rows=tuple(rows),
         numeric=(1, 2, 3, 4),
         note="Taken at the points inside the elements where stresses are most accurate. Under the rim of a flat disc the "
@@ -147,7 +147,7 @@ def cost_table(study: Study) -> Table:
                     three(history.setup_seconds),
                     three(rest),
                     three(history.cpu_seconds),
-                    f"{history.dofs:,}".replace(",", " "),
+                    count(history.dofs),
                     "1" if history.model == REFERENCE else f"{ratio:.2g}" if ratio < 100 else f"{ratio:.0f}",
                 )
             )

@@ -7,7 +7,7 @@ from math import isfinite
 
 from trocar.study.curves import CurveComparison
 from trocar.study.protocol import BLOCK, Study
-from trocar.study.report.figures.style import label, three, with_uncertainty
+from trocar.study.report.figures.style import label, power_of_ten, three, with_uncertainty
 from trocar.study.report.table import Table, percent
 from trocar.units import MILLIMETRE
 
@@ -177,7 +177,7 @@ def ledger_rows(ledger: tuple[Mapping[str, object], ...]) -> Table:
             (
                 str(entry["id"]),
                 _printed(entry),
-                f"{recomputed:.4g}".replace("-", "−") if isinstance(recomputed, int | float) else "",
+                _number(f"{recomputed:.4g}") if isinstance(recomputed, int | float) else "",
                 "" if entry.get("unit", "1") == "1" else str(entry["unit"]),
                 str(entry["verdict"]),
                 str(entry["note"]),
@@ -196,7 +196,23 @@ def ledger_rows(ledger: tuple[Mapping[str, object], ...]) -> Table:
 def _printed(entry: Mapping[str, object]) -> str:
     """Return the published value as it is printed where that is known."""
     text = entry.get("printed") or entry.get("published")
-    return "" if text is None else f"{text}".replace("-", "−")
+    return "" if text is None else _number(str(text))
+
+
+def _number(text: str) -> str:
+    """Return a number as it is read, "6.48e-05" as "6.48×10⁻⁵"; other text as it is."""
+    if not _is_number(text):
+        return text
+    mantissa, power, _ = text.partition("e")
+    return power_of_ten(float(text), sum(map(str.isdigit, mantissa))) if power else text.replace("-", "−")
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _yes(fact: bool) -> str:

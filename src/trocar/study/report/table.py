@@ -35,5 +35,12 @@ def percent(share: float, *, signed: bool = False) -> str:
         signed: whether to write the plus sign too.
     """
     value = 100 * share
-    digits = float(f"{value:.2g}") if abs(value) < 100 else round(value)
-    return f"{digits:{'+' if signed else ''}g} %".replace("-", "−")
+    if value == 0:
+        return "0 %"
+    places = max(0, 1 - int(f"{value:.1e}".split("e")[1]))
+    return f"{value:{'+' if signed else ''}.{places}f} %".replace("-", "−")
+
+
+def count(number: int) -> str:
+    """Return a whole number with its thousands apart."""
+    return f"{number:,}".replace(",", "\N{NARROW NO-BREAK SPACE}")

@@ -52,7 +52,7 @@ def bland_altman_figure(comparison: Comparison) -> Figure:
         ):
             panel.axhline(value / MICROMETRE, color=BLACK, linewidth=0.9, linestyle=style)
             panel.annotate(
-                f"{name} {three(value / MICROMETRE)}", (0.0, value / MICROMETRE), (0, 2),
+                f"{name} {three(value / MICROMETRE)}", (0.0, value / MICROMETRE), (4, 2),
                 xycoords=("axes fraction", "data"), textcoords="offset points", fontsize=7.5, color=GREY,
             )
         panel.margins(y=0.16)

@@ -88,5 +88,5 @@ def _draw_forces(axes: Axes, view: View, case: Case) -> None:
         )
         axes.annotate(
             f"{tool.peak:g} N", view.project(tail), (4, 0), textcoords="offset points", va="center",
-            fontsize=8.5, color=GREY,
+            fontsize=8.5, color=GREY, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8},
         )

@@ -11,6 +11,7 @@ from io import BytesIO
 
 import matplotlib as mpl
 import numpy as np
+import numpy.typing as npt
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PolyCollection
@@ -25,8 +26,11 @@ from trocar.study.report.figures.film import DENT
 from trocar.study.report.figures.style import BLACK, DEPTHS, GREY, LAYER_COLOURS, LAYER_STYLES, VERMILION, settings, three
 from trocar.units import MILLIMETRE, MILLISECOND
 
+IntArray = npt.NDArray[np.int64]
+
 SLOWER = 20  # times slower than real: 180 ms last 3.6 s, and 2 ms are the 40 ms of a frame
 PAUSE = 700  # [ms] on the last frame before the film begins again
+BITS = 5  # of each colour channel that decide which colour of the palette is nearest
 TICK = 10  # [ms] the unit of time in a GIF
 SHADES = 96  # colours of the face; enough for smooth shading, few enough for a small file
 PURE = ("#ffffff", BLACK, GREY, "#e8eaed", VERMILION, *LAYER_COLOURS)  # colours of lines, each with its pale edges
@@ -59,8 +63,9 @@ def animation(film: Film) -> Moving:
     with settings():
         pictures = _frames(film)
     deepest = int(np.argmax(-film.height.min(axis=(1, 2))))
-    palette = _palette(pictures[deepest])
-    indexed = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
+    palette = _palette(Image.fromarray(pictures[deepest]))
+    nearest = _nearest(palette)
+    indexed = [_indexed(picture, palette, nearest) for picture in pictures]
     gaps = np.diff(film.time) / MILLISECOND * SLOWER
     durations = [max(TICK, TICK * round(float(gap) / TICK)) for gap in gaps] + [PAUSE]
     gif, still = BytesIO(), BytesIO()
@@ -81,17 +86,32 @@ def animation_alt(film: Film) -> str:
     )
 
 
-def _palette(picture: Image.Image) -> Image.Image:
-    """Return an image whose palette holds the lines' colours unmixed, and the commonest of the picture."""
+def _palette(picture: Image.Image) -> IntArray:
+    """Return colours, shape (n, 3): the commonest of the picture, and the lines' own, unmixed."""
     common = picture.quantize(SHADES, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
-    values = list(common.getpalette() or [])[: 3 * SHADES]
-    for name in PURE:
-        colour = np.array(mpl.colors.to_rgb(name))
-        for share in EDGES:
-            values += [round(255 * part) for part in 1 - share * (1 - colour)]
-    palette = Image.new("P", (1, 1))
-    palette.putpalette(values)
-    return palette
+    shades = np.array(common.getpalette() or [], dtype=np.int64)[: 3 * SHADES].reshape(-1, 3)
+    lines = np.array([mpl.colors.to_rgb(name) for name in PURE])
+    faded = [np.round(255 * (1 - share * (1 - lines))).astype(np.int64) for share in EDGES]
+    return np.concatenate([*faded, shades])
+
+
+def _nearest(palette: IntArray) -> npt.NDArray[np.uint8]:
+    """Return the nearest of the palette for every colour of `BITS` bits a channel, shape (2^BITS,) * 3."""
+    steps = np.round(np.linspace(0, 255, 2**BITS)).astype(np.int64)
+    found = np.empty((len(steps),) * 3, dtype=np.uint8)
+    green, blue = np.meshgrid(steps, steps, indexing="ij")
+    for i, red in enumerate(steps):
+        colours = np.stack([np.full_like(green, red), green, blue], axis=-1)
+        apart = ((colours[:, :, None, :] - palette) ** 2).sum(axis=-1)
+        found[i] = apart.argmin(axis=-1)
+    return found
+
+
+def _indexed(pixels: npt.NDArray[np.uint8], palette: IntArray, nearest: npt.NDArray[np.uint8]) -> Image.Image:
+    red, green, blue = np.moveaxis(pixels >> (8 - BITS), -1, 0)
+    picture = Image.fromarray(nearest[red, green, blue], "P")
+    picture.putpalette(palette.astype(np.uint8).tobytes())
+    return picture
 
 
 def _return_time(film: Film) -> float:
@@ -103,7 +123,7 @@ def _return_time(film: Film) -> float:
     return float(film.time[back] - film.time[let_go])
 
 
-def _frames(film: Film) -> list[Image.Image]:
+def _frames(film: Film) -> list[npt.NDArray[np.uint8]]:
     deepest = -float(film.height.min())
     factor = enlargement(deepest, DENT)
     scale, cmap = Normalize(0, deepest / MILLIMETRE), mpl.colormaps[DEPTHS]
@@ -155,7 +175,7 @@ def _frames(film: Film) -> list[Image.Image]:
         canvas.restore_region(ground)  # type: ignore[attr-defined]
         for artist in moving:
             figure.draw_artist(artist)
-        pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3].copy()))
+        pictures.append(np.asarray(canvas.buffer_rgba())[..., :3].copy())
     return pictures
 
 

@@ -45,8 +45,9 @@ def deflection_figure(comparison: Comparison, *, reference: str = "fea", depth_l
         below.set_xlabel("time / s")
     axes[0, 0].set_ylabel("largest deflection / mm")
     axes[0, 0].set_ylim(bottom=0)
-    for column, above in enumerate(axes[0]):
-        if depth_limit:
+    if depth_limit:
+        axes[0, 0].set_ylim(top=1.15 * axes[0, 0].get_ylim()[1])  # room for words above the peak
+        for column, above in enumerate(axes[0]):
             _draw_limit(above, thickness, column == 0)
     axes[1, 0].set_ylabel("difference /\n% of the peak")
     handles, labels = axes[0, 0].get_legend_handles_labels()
@@ -84,5 +85,5 @@ def _draw_limit(axes: Axes, thickness: float, named: bool) -> None:
     if named:
         axes.text(
             0.04, 0.97, f"deeper than\nthe block\n({thickness:.3g} mm)",
-            transform=axes.transAxes, va="top", fontsize=7.5, color=VERMILION,
+            transform=axes.transAxes, va="top", fontsize=7, color=VERMILION,
         )

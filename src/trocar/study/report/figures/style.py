@@ -16,6 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 P = ParamSpec("P")
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 WIDTH = 7.2  # [in]
 BLACK, GREY, FAINT = "#000000", "#5f6368", "#d9dce0"
@@ -105,8 +106,14 @@ def three(value: float) -> str:
     if value == 0:
         return "0"
     if not 1e-4 <= abs(value) < 1e5:
-        return f"{value:.2e}".replace("-", "−")
+        return power_of_ten(value, 3)
     return f"{float(f'{value:.2e}'):.{max(0, 2 - _decade(value))}f}".replace("-", "−")
+
+
+def power_of_ten(value: float, digits: int) -> str:
+    """Return a number as "7.61×10⁻⁷" with this many significant digits."""
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    return f"{mantissa}×10{str(int(exponent)).translate(_RAISED)}".replace("-", "−")
 
 
 def with_uncertainty(value: float, half: float) -> str:
