@@ -51,7 +51,9 @@ def study_dataset(study: Study, *, created: str, command: str = "") -> xr.Datase
         "layer": _named("layer", layers, "layer, top first"),
         "model": _named("model", MODELS, "model; fea is the reference"),
         "support": _named("support", [support.value for support in study.supports], "how the block is held"),
-        "component": _named("component", ("x", "y", "z"), "component of a displacement; z points out of the tissue"),
+        "component": _named(
+            "component", ("x", "y", "z"), "component of a displacement; z points out of the tissue"
+        ),
         "x": _real(("x",), first.x, "m", "place along x"),
         "y": _real(("y",), first.y, "m", "place along y"),
     }
@@ -60,11 +62,17 @@ def study_dataset(study: Study, *, created: str, command: str = "") -> xr.Datase
     for name, surface in study.surfaces.items():
         values = np.stack([surface.displacement[layer] for layer in layers])
         variables[f"displacement_{name}"] = _real(
-            ("layer", "component", "x", "y"), values, "m", f"displacement of each layer's upper face at the peak, {name}"
+            ("layer", "component", "x", "y"),
+            values,
+            "m",
+            f"displacement of each layer's upper face at the peak, {name}",
         )
     by_support = np.stack([_depths(comparison, layers) for comparison in study.supports.values()])
     variables["deflection_support"] = _real(
-        ("support", "model", "layer", "time_small"), by_support, "m", "largest deflection, small load, each support"
+        ("support", "model", "layer", "time_small"),
+        by_support,
+        "m",
+        "largest deflection, small load, each support",
     )
     variables |= _film(study, layers) | _per_layer(study, layers)
     coordinates = {name for name in variables if variables[name].dims == (name,)}
@@ -87,10 +95,17 @@ def _case(name: str, comparison: Comparison, layers: Sequence[str]) -> Mapping[s
         time: _real((time,), one.time, "s", f"time since first touch, {title}"),
         f"force_{name}": _real((time,), one.force, "N", f"force of all tools along their axes, {title}"),
         f"deflection_{name}": _real(
-            ("model", "layer", time), _depths(comparison, layers), "m", f"largest deflection of the upper face, {title}"
+            ("model", "layer", time),
+            _depths(comparison, layers),
+            "m",
+            f"largest deflection of the upper face, {title}",
         ),
-        f"cpu_time_{name}": _real(("model",), costs["cpu_seconds"], "s", f"processor time, set-up included, {title}"),
-        f"setup_time_{name}": _real(("model",), costs["setup_seconds"], "s", f"processor time of set-up, {title}"),
+        f"cpu_time_{name}": _real(
+            ("model",), costs["cpu_seconds"], "s", f"processor time, set-up included, {title}"
+        ),
+        f"setup_time_{name}": _real(
+            ("model",), costs["setup_seconds"], "s", f"processor time of set-up, {title}"
+        ),
         f"unknowns_{name}": _real(("model",), costs["dofs"], "1", f"unknowns solved for, {title}"),
     }
 
@@ -135,7 +150,9 @@ def _per_layer(study: Study, layers: Sequence[str]) -> dict[str, xr.Variable]:
     }  # fmt: skip
     for key, (unit, meaning) in _TISSUE.items():
         columns[key] = ([getattr(layer, key) for layer in tissue.layers], unit, meaning)
-    return {key: _real(("layer",), np.asarray(values, float), *words) for key, (values, *words) in columns.items()}
+    return {
+        key: _real(("layer",), np.asarray(values, float), *words) for key, (values, *words) in columns.items()
+    }
 
 
 def _attributes(study: Study, created: str, command: str) -> dict[str, str | float]:

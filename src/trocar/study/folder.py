@@ -37,7 +37,9 @@ def check_folder(out: Path) -> Path:
     if place.exists() and not place.is_dir():
         raise InputError(f"out: {out}", _EXPECTED, "a file")
     if place.exists() and any(place.iterdir()) and not is_study(place):
-        raise InputError(f"out: {out}", _EXPECTED, "a folder with other files", "name another, or empty it yourself")
+        raise InputError(
+            f"out: {out}", _EXPECTED, "a folder with other files", "name another, or empty it yourself"
+        )
     nearest = next(parent for parent in place.parents if parent.exists())
     if not nearest.is_dir():
         raise InputError(f"out: {out}", _EXPECTED, f"a place below the file {nearest.name}")

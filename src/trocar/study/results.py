@@ -59,11 +59,13 @@ def write_study(
         figures = folder / "figures"
         figures.mkdir()
         for name, picture in drawn.items():
-            (figures / f"{name}.svg").write_text(picture.svg(), encoding="utf-8")
+            (figures / f"{name}.svg").write_text(picture.svg, encoding="utf-8")
         (figures / f"{FILM}.gif").write_bytes(film.gif)
         (figures / f"{FILM}.png").write_bytes(film.still)
         stamp = moment.isoformat(timespec="seconds")
-        study_dataset(study, created=stamp, command=command).to_netcdf(folder / "results.nc", engine="h5netcdf")
+        study_dataset(study, created=stamp, command=command).to_netcdf(
+            folder / "results.nc", engine="h5netcdf"
+        )
         write_curves(study, folder / "curves.csv")
         write_json(folder / "statistics.json", statistics(study, ranges))
         write_json(folder / "ledger.json", [dict(entry) for entry in ledger])
@@ -95,14 +97,18 @@ def statistics(study: Study, ranges: Ranges | None = None) -> dict[str, object]:
         "support": study.plan.support.value,
         "agreement": {
             load: {
-                model: {layer: curve.as_dict() for layer, curve in layers.items()} for model, layers in models.items()
+                model: {layer: curve.as_dict() for layer, curve in layers.items()}
+                for model, layers in models.items()
             }
             for load, models in study.agreement.items()
         },
         "numerics": {
             layer: _plain(
                 asdict(numbers)
-                | {"resolved": numbers.comparison.resolved, "model_error": list(numbers.comparison.model_error)}
+                | {
+                    "resolved": numbers.comparison.resolved,
+                    "model_error": list(numbers.comparison.model_error),
+                }
             )
             for layer, numbers in study.numerics.items()
         },
@@ -127,7 +133,9 @@ def statistics(study: Study, ranges: Ranges | None = None) -> dict[str, object]:
 
 def write_json(path: Path, content: object) -> None:
     """Write plain values as JSON that any reader takes: no infinity, no nan."""
-    path.write_text(json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
+    path.write_text(
+        json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
+    )
 
 
 def _cases(study: Study) -> list[tuple[str, Comparison]]:

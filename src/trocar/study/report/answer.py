@@ -19,12 +19,14 @@ from trocar.units import MILLIMETRE, MILLISECOND
 
 MEMBRANE = "wave-membrane"
 
+
 @dataclass(frozen=True, kw_only=True)
 class Figure:
     """One number of the answer, large, with what it is."""
 
     value: str
     meaning: str
+
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
@@ -43,6 +45,7 @@ class Answer:
     figures: tuple[Figure, ...]
     paper_inside: bool | None
     paper_verdict: str
+
 
 def answer(study: Study, ranges: Ranges | None) -> Answer:
     """Write the answer.
@@ -93,6 +96,7 @@ def answer(study: Study, ranges: Ranges | None) -> Answer:
         paper_verdict=verdict,
     )
 
+
 def overlooked(curve: FloatArray) -> float:
     """Return how much too far a model could deflect at every moment and still pass the published t-test [1].
 
@@ -111,9 +115,12 @@ def _limits(study: Study) -> tuple[str, ...]:
     for support, comparison in study.supports.items():
         if support is not study.plan.support:
             differences = " and ".join(
-                f"{label(model)} by {percent(_at_peak(comparison, model), signed=True)}" for model in (MODEL, MEMBRANE)
+                f"{label(model)} by {percent(_at_peak(comparison, model), signed=True)}"
+                for model in (MODEL, MEMBRANE)
             )
-            sentences.append(f"{_support(support).capitalize()}, the same press differs: {differences} at the peak.")
+            sentences.append(
+                f"{_support(support).capitalize()}, the same press differs: {differences} at the peak."
+            )
     worst = {model: _over_time(study.tap, model) for model in (MODEL, MEMBRANE)}
     duration = study.tap.case.duration / MILLISECOND
     sentences.append(
@@ -130,6 +137,7 @@ def _limits(study: Study) -> tuple[str, ...]:
         "it, and the literature's moduli spread far more than the models differ."
     )
     return tuple(sentences)
+
 
 def _paper_verdict(study: Study, ranges: Ranges | None) -> tuple[str, bool | None]:
     plan = study.plan
@@ -150,19 +158,24 @@ def _paper_verdict(study: Study, ranges: Ranges | None) -> tuple[str, bool | Non
         return f"{said}, which cannot be: the load is far outside the linear range.", False
     return f"{said}; whether that lies inside the linear range is not assessed.", None
 
+
 def _at_peak(comparison: Comparison, model: str) -> float:
     truth = float(comparison[REFERENCE].block.max())
     return (float(comparison[model].block.max()) - truth) / truth
+
 
 def _over_time(comparison: Comparison, model: str) -> float:
     truth = comparison[REFERENCE].block
     return float(np.abs(comparison[model].block - truth).max() / truth.max())
 
+
 def _support(support: Support) -> str:
     return WORDS[support].replace("\n", " ").split(": ", 1)[1].replace(" (the paper)", "")
 
+
 def _times(ratio: float) -> str:
     return f"{_round(ratio)} times" if ratio >= 1 else "no"
+
 
 def _round(ratio: float) -> str:
     return f"{float(f'{ratio:.2g}'):g}"

@@ -96,23 +96,27 @@ def report_page(
         tissue=protocol_tables.tissue_table(study),
         machine=protocol_tables.machine_table(study, command, created),
     )
-    return environment().get_template("report.html.jinja").render(
-        study=study,
-        answer=said,
-        contents=CONTENTS,
-        tables=tables,
-        pictures=pictures,
-        film=b64encode(film.gif).decode(),
-        still=b64encode(film.still).decode(),
-        film_alt=animation_alt(study.film),
-        press_ms=f"{PRESS / MILLISECOND:g}",
-        small=f"{plan.small:g} N",
-        peak=f"{plan.peak:g} N",
-        margin=percent(MARGIN),
-        overlooked=percent(overlooked(study.paper[REFERENCE].block)),
-        samples=study.paper[REFERENCE].time.size,
-        verdicts=_verdicts(ledger),
-        created=created,
+    return (
+        environment()
+        .get_template("report.html.jinja")
+        .render(
+            study=study,
+            answer=said,
+            contents=CONTENTS,
+            tables=tables,
+            pictures=pictures,
+            film=b64encode(film.gif).decode(),
+            still=b64encode(film.still).decode(),
+            film_alt=animation_alt(study.film),
+            press_ms=f"{PRESS / MILLISECOND:g}",
+            small=f"{plan.small:g} N",
+            peak=f"{plan.peak:g} N",
+            margin=percent(MARGIN),
+            overlooked=percent(overlooked(study.paper[REFERENCE].block)),
+            samples=study.paper[REFERENCE].time.size,
+            verdicts=_verdicts(ledger),
+            created=created,
+        )
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import cached_property
 from io import StringIO
 from xml.sax.saxutils import quoteattr
 
@@ -31,8 +32,9 @@ class Picture:
     caption: str
     figure: Figure
 
+    @cached_property
     def svg(self) -> str:
-        """Return the content of an SVG file: text as outlines, so that it needs no font."""
+        """The content of an SVG file: text as outlines, so that it needs no font."""
         stream = StringIO()
         with settings():
             self.figure.savefig(stream, format="svg", dpi=RASTER, metadata=_NOTHING_ABOUT_THE_MAKER)
@@ -40,7 +42,7 @@ class Picture:
 
     def inline_svg(self) -> str:
         """Return the drawing as an element of an HTML page, its ids made its own and nothing named outside it."""
-        text = self.svg()
+        text = self.svg
         text = text[text.index("<svg") :]
         text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
         text = re.sub(r"<!--.*?-->\s*", "", text, flags=re.DOTALL)

@@ -81,7 +81,9 @@ def _support(study: Study) -> str:
 def _value(item: Property) -> str:
     unit = "" if item.unit == "1" else f" {item.unit}"
     spread = f" ({item.spread_text})" if isinstance(item.spread, tuple) else f" {item.spread_text}".rstrip()
-    return f"{item.value:g}{unit}{spread}" if isinstance(item.spread, tuple) else f"{item.value:g}{spread}{unit}"
+    return (
+        f"{item.value:g}{unit}{spread}" if isinstance(item.spread, tuple) else f"{item.value:g}{spread}{unit}"
+    )
 
 
 def _status(item: Property) -> str:

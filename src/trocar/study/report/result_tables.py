@@ -39,7 +39,11 @@ def deflection_table(comparison: Comparison, caption: str, note: str = "") -> Ta
         for history in judged:
             depth = history.deflection[layer]
             difference = float(depth.max() - reference.max()) / float(reference.max())
-            cells += [three(float(depth.max()) / MILLIMETRE), percent(difference, signed=True), percent(nrmse(reference, depth))]
+            cells += [
+                three(float(depth.max()) / MILLIMETRE),
+                percent(difference, signed=True),
+                percent(nrmse(reference, depth)),
+            ]
         rows.append(tuple(cells))
     names = [label(history.model) for history in judged]
     return Table(
@@ -63,7 +67,8 @@ def support_table(study: Study) -> Table:
         for layer, depth in truth.deflection.items():
             peak = float(depth.max())
             others = (
-                percent((float(comparison[model].deflection[layer].max()) - peak) / peak, signed=True) for model in JUDGED
+                percent((float(comparison[model].deflection[layer].max()) - peak) / peak, signed=True)
+                for model in JUDGED
             )
             rows.append((WORDS[support].replace("\n", " "), layer, three(peak / MILLIMETRE), *others))
     return Table(
@@ -124,7 +129,13 @@ def strength_table(study: Study, *, predicted: bool) -> Table:
     small, peak = f"{study.plan.small:g} N", f"{study.plan.peak:g} N"
     return Table(
         caption="Largest von Mises stress of each layer, prestress included, and its tensile strength.",
-        head=("layer", f"{small} / kPa", f"{peak} / kPa" if predicted else f"{peak} / kPa (not a prediction)", "tensile strength / kPa", f"share at {small}"),
+        head=(
+            "layer",
+            f"{small} / kPa",
+            f"{peak} / kPa" if predicted else f"{peak} / kPa (not a prediction)",
+            "tensile strength / kPa",
+            f"share at {small}",
+        ),
         rows=tuple(rows),
         numeric=(1, 2, 3, 4),
         note="Taken at the points inside the elements where stresses are most accurate. Under the rim of a flat disc the "
@@ -153,7 +164,15 @@ def cost_table(study: Study) -> Table:
             )
     return Table(
         caption="Processor time of each model for the same case on this machine.",
-        head=("case", "model", "set-up / s", "samples / s", "together / s", "unknowns", "times cheaper than finite elements"),
+        head=(
+            "case",
+            "model",
+            "set-up / s",
+            "samples / s",
+            "together / s",
+            "unknowns",
+            "times cheaper than finite elements",
+        ),
         rows=tuple(rows),
         numeric=(2, 3, 4, 5, 6),
         note="Set-up is building the model and, where the load is followed through equilibria, one solution for each tool: "

@@ -41,7 +41,16 @@ def published_table(study: Study) -> Table:
         )
     return Table(
         caption=f"Two-sample t-test with equal variances, wave model against finite elements, {study.plan.peak:g} N.",
-        head=("model", "upper face of", "t", "df", "p (two tails)", "t critical", "p > 0.05", "t < t critical"),
+        head=(
+            "model",
+            "upper face of",
+            "t",
+            "df",
+            "p (two tails)",
+            "t critical",
+            "p > 0.05",
+            "t < t critical",
+        ),
         rows=tuple(rows),
         numeric=(2, 3, 4, 5),
         note="Whatever the load, the result is the same: in linear models both curves scale with it.",

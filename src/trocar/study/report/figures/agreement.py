@@ -39,8 +39,13 @@ def bland_altman_figure(comparison: Comparison) -> Figure:
         for place, (layer, depth) in enumerate(history.deflection.items()):
             one = truth.deflection[layer]
             panel.plot(
-                (one + depth) / 2 / MILLIMETRE, (depth - one) / MICROMETRE, MARKS[place % 6], markersize=3.2,
-                color=LAYER_COLOURS[place % 6], markeredgewidth=0, label=layer,
+                (one + depth) / 2 / MILLIMETRE,
+                (depth - one) / MICROMETRE,
+                MARKS[place % 6],
+                markersize=3.2,
+                color=LAYER_COLOURS[place % 6],
+                markeredgewidth=0,
+                label=layer,
             )
             first.append(one)
             second.append(depth)
@@ -52,8 +57,13 @@ def bland_altman_figure(comparison: Comparison) -> Figure:
         ):
             panel.axhline(value / MICROMETRE, color=BLACK, linewidth=0.9, linestyle=style)
             panel.annotate(
-                f"{name} {three(value / MICROMETRE)}", (0.0, value / MICROMETRE), (4, 2),
-                xycoords=("axes fraction", "data"), textcoords="offset points", fontsize=7.5, color=GREY,
+                f"{name} {three(value / MICROMETRE)}",
+                (0.0, value / MICROMETRE),
+                (4, 2),
+                xycoords=("axes fraction", "data"),
+                textcoords="offset points",
+                fontsize=7.5,
+                color=GREY,
             )
         panel.margins(y=0.16)
         panel.set_title(f"{label(history.model)} and finite elements")
@@ -90,8 +100,12 @@ def uncertainty_figure(numerics: Mapping[str, Numerics], depths: Mapping[str, fl
         axes.plot([low, high], [place, place], color=BLUE, linewidth=5, alpha=0.3, solid_capstyle="butt")
         axes.plot(error, place, "o", color=BLUE, markersize=6)
         axes.annotate(
-            f"{with_uncertainty(error, (high - low) / 2)} %", (high, place), (6, 0), textcoords="offset points",
-            va="center", fontsize=8.5,
+            f"{with_uncertainty(error, (high - low) / 2)} %",
+            (high, place),
+            (6, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=8.5,
         )
     axes.set_yticks(range(len(numerics)), list(numerics))
     axes.invert_yaxis()
@@ -99,7 +113,9 @@ def uncertainty_figure(numerics: Mapping[str, Numerics], depths: Mapping[str, fl
     low, high = axes.get_xlim()
     axes.set_xlim(low, high + 0.28 * (high - low))
     axes.grid(axis="y", visible=False)
-    axes.set_xlabel("WaveSolid minus finite elements / % of the deflection; bar: twice the numerical uncertainty")
+    axes.set_xlabel(
+        "WaveSolid minus finite elements / % of the deflection; bar: twice the numerical uncertainty"
+    )
     return figure
 
 
@@ -108,4 +124,6 @@ def uncertainty_alt(numerics: Mapping[str, Numerics]) -> str:
     resolved = [layer for layer, numbers in numerics.items() if numbers.comparison.resolved]
     if not resolved:
         return "For every layer the difference between the models is smaller than the uncertainty of computing it."
-    return f"The difference between the models stands out of its numerical uncertainty in {', '.join(resolved)}."
+    return (
+        f"The difference between the models stands out of its numerical uncertainty in {', '.join(resolved)}."
+    )

@@ -87,6 +87,12 @@ def _draw_forces(axes: Axes, view: View, case: Case) -> None:
             arrowprops={"arrowstyle": "-|>", "color": VERMILION, "linewidth": 2, "shrinkA": 0, "shrinkB": 0},
         )
         axes.annotate(
-            f"{tool.peak:g} N", view.project(tail), (4, 0), textcoords="offset points", va="center",
-            fontsize=8.5, color=GREY, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8},
+            f"{tool.peak:g} N",
+            view.project(tail),
+            (4, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=8.5,
+            color=GREY,
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8},
         )

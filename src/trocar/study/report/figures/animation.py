@@ -23,7 +23,16 @@ from trocar.study.film import Film
 from trocar.study.report.figures.axonometry import View, colours, draw_surface, fit, quads
 from trocar.study.report.figures.block import enlargement
 from trocar.study.report.figures.film import DENT
-from trocar.study.report.figures.style import BLACK, DEPTHS, GREY, LAYER_COLOURS, LAYER_STYLES, VERMILION, settings, three
+from trocar.study.report.figures.style import (
+    BLACK,
+    DEPTHS,
+    GREY,
+    LAYER_COLOURS,
+    LAYER_STYLES,
+    VERMILION,
+    settings,
+    three,
+)
 from trocar.units import MILLIMETRE, MILLISECOND
 
 IntArray = npt.NDArray[np.int64]
@@ -33,7 +42,14 @@ PAUSE = 700  # [ms] on the last frame before the film begins again
 BITS = 5  # of each colour channel that decide which colour of the palette is nearest
 TICK = 10  # [ms] the unit of time in a GIF
 SHADES = 96  # colours of the face; enough for smooth shading, few enough for a small file
-PURE = ("#ffffff", BLACK, GREY, "#e8eaed", VERMILION, *LAYER_COLOURS)  # colours of lines, each with its pale edges
+PURE = (
+    "#ffffff",
+    BLACK,
+    GREY,
+    "#e8eaed",
+    VERMILION,
+    *LAYER_COLOURS,
+)  # colours of lines, each with its pale edges
 EDGES = (1.0, 0.7, 0.4)  # how strong, from the line to what the smoothing of its edge leaves
 SIZE, DOTS = (7.2, 3.7), 100  # [in], [1/in]
 KEEP = 1  # every how many of the film's grid lines is drawn
@@ -139,15 +155,21 @@ def _frames(film: Film) -> list[npt.NDArray[np.uint8]]:
     fit(scene, view, ends, margin=0.02)
     figure.text(0.02, 0.93, "Press and release", fontsize=12, fontweight="bold")
     figure.text(
-        0.02, 0.03, f"{SLOWER} times slower than real; displacements drawn {factor:g} times as large",
-        fontsize=8.5, color=GREY,
+        0.02,
+        0.03,
+        f"{SLOWER} times slower than real; displacements drawn {factor:g} times as large",
+        fontsize=8.5,
+        color=GREY,
     )
     _draw_curves(force, depth, film)
     first = quads(x, y, factor * height[0])
     face = draw_surface(scene, view, first, colours(first, -height[0], scale, cmap))
     order = np.argsort(-view.distance(first.mean(axis=1)))
     arrow = scene.annotate(
-        "", (0, 0), (0, 1), arrowprops={"arrowstyle": "-|>", "color": VERMILION, "linewidth": 2.2, "shrinkB": 0}
+        "",
+        (0, 0),
+        (0, 1),
+        arrowprops={"arrowstyle": "-|>", "color": VERMILION, "linewidth": 2.2, "shrinkB": 0},
     )
     clock = figure.text(0.02, 0.86, "", fontsize=10)
     (at_force,) = force.plot([], [], "o", color=VERMILION, markersize=6)
@@ -193,8 +215,12 @@ def _draw_curves(force, depth, film: Film) -> None:  # type: ignore[no-untyped-d
     force.tick_params(labelbottom=False)
     for place, (layer, curve) in enumerate(film.depth.items()):
         depth.plot(
-            time, curve / MILLIMETRE, color=LAYER_COLOURS[place % 6], linestyle=LAYER_STYLES[place % 6],
-            linewidth=1.4, label=layer,
+            time,
+            curve / MILLIMETRE,
+            color=LAYER_COLOURS[place % 6],
+            linestyle=LAYER_STYLES[place % 6],
+            linewidth=1.4,
+            label=layer,
         )
     depth.set_ylabel("depth under the tool / mm")
     depth.set_xlabel("time / ms")

@@ -87,7 +87,9 @@ def draw_surface(
     """Draw faces, the farthest first, and return them."""
     order = np.argsort(-view.distance(faces.mean(axis=1)))
     flat = view.project(faces[order])
-    drawn = PolyCollection(list(flat), facecolors=rgba[order], **({"edgecolors": "face", "linewidth": 0.3} | style))
+    drawn = PolyCollection(
+        list(flat), facecolors=rgba[order], **({"edgecolors": "face", "linewidth": 0.3} | style)
+    )
     drawn.set_rasterized(True)  # thousands of faces would make a vector file of megabytes
     axes.add_collection(drawn)
     return drawn

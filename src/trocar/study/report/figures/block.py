@@ -61,10 +61,14 @@ def block_figure(case: Case, surface: Surface) -> Figure:
         _draw_cut(axes, view, x, y[0], (top + drawn[i][:, 0], bottom + lower[i][:, 0]), i)
         _name(axes, view, (float(x[-1]), float(y[-1]), top), layers[i])
     _draw_tool(axes, view, case, heights[0] + drawn[0].min())
-    ends = np.array([[a, b, c] for a in (x[0], x[-1]) for b in (y[0], y[-1]) for c in (heights[0], _floor(layers))])
+    ends = np.array(
+        [[a, b, c] for a in (x[0], x[-1]) for b in (y[0], y[-1]) for c in (heights[0], _floor(layers))]
+    )
     fit(axes, view, ends)
     axes.set_xlim(axes.get_xlim()[0], axes.get_xlim()[1] + 19)  # [mm] for the layers' names
-    bar = figure.colorbar(ScalarMappable(scale, cmap), ax=axes, orientation="horizontal", shrink=0.45, aspect=28, pad=0.01)
+    bar = figure.colorbar(
+        ScalarMappable(scale, cmap), ax=axes, orientation="horizontal", shrink=0.45, aspect=28, pad=0.01
+    )
     bar.set_label("deflection of each layer's upper face / mm")
     bar.outline.set_visible(False)  # type: ignore[operator]
     axes.set_title(f"Layers to scale and taken apart; displacements drawn {factor:g} times as large")
@@ -116,7 +120,13 @@ def _draw_cut(
     top, bottom = (np.stack([x, there, face], 1) for face in faces)
     outline = np.concatenate([top, bottom[::-1]])
     draw_polygon(
-        axes, view, outline, facecolor=_pale(place, 0.72), edgecolor=GREY, linewidth=0.5, hatch=HATCHES[place % 6]
+        axes,
+        view,
+        outline,
+        facecolor=_pale(place, 0.72),
+        edgecolor=GREY,
+        linewidth=0.5,
+        hatch=HATCHES[place % 6],
     )
     edge = view.project(top)
     axes.plot(edge[:, 0], edge[:, 1], color=BLACK, linewidth=0.9)

@@ -29,7 +29,11 @@ def cost_figure(cases: Mapping[str, Comparison]) -> Figure:
             panel.barh(place, setup, height=0.62, color=colour, hatch="////", edgecolor="white", linewidth=0)
             panel.barh(place, whole - setup, left=setup, height=0.62, color=colour, linewidth=0)
             panel.annotate(
-                f"{three(history.cpu_seconds)} s", (whole, place), (4, 0), textcoords="offset points", va="center",
+                f"{three(history.cpu_seconds)} s",
+                (whole, place),
+                (4, 0),
+                textcoords="offset points",
+                va="center",
                 fontsize=8,
             )
         panel.set_yticks(range(len(case.histories)), [label(history.model) for history in case.histories])

@@ -34,7 +34,10 @@ def deflection_figure(comparison: Comparison, *, reference: str = "fea", depth_l
         above, below = axes[:, column]
         for history in (truth, *judged):
             above.plot(
-                history.time, _curve(history, layer) / MILLIMETRE, label=label(history.model), **MODEL_LINES[history.model]
+                history.time,
+                _curve(history, layer) / MILLIMETRE,
+                label=label(history.model),
+                **MODEL_LINES[history.model],
             )
         whole = _curve(truth, layer)
         below.axhline(0, color=GREY, linewidth=0.8)
@@ -84,6 +87,11 @@ def _draw_limit(axes: Axes, thickness: float, named: bool) -> None:
     axes.axhline(thickness, color=VERMILION, linewidth=1.0, linestyle=(0, (2, 2)))
     if named:
         axes.text(
-            0.04, 0.97, f"deeper than\nthe block\n({thickness:.3g} mm)",
-            transform=axes.transAxes, va="top", fontsize=7, color=VERMILION,
+            0.04,
+            0.97,
+            f"deeper than\nthe block\n({thickness:.3g} mm)",
+            transform=axes.transAxes,
+            va="top",
+            fontsize=7,
+            color=VERMILION,
         )

@@ -12,7 +12,15 @@ from trocar.model import FloatArray
 from trocar.study.film import Film
 from trocar.study.report.figures.axonometry import View, colours, draw_rim, draw_surface, fit, quads
 from trocar.study.report.figures.block import enlargement
-from trocar.study.report.figures.style import DEPTHS, LAYER_COLOURS, LAYER_STYLES, VERMILION, sheet, styled, three
+from trocar.study.report.figures.style import (
+    DEPTHS,
+    LAYER_COLOURS,
+    LAYER_STYLES,
+    VERMILION,
+    sheet,
+    styled,
+    three,
+)
 from trocar.units import MILLIMETRE, MILLISECOND
 
 LETTERS = "abcdef"
@@ -44,14 +52,20 @@ def film_figure(film: Film) -> Figure:
     for letter, frame in zip(LETTERS, shown, strict=False):
         z = factor * film.height[frame] / MILLIMETRE
         faces = quads(x, y, z)
-        draw_surface(panels[letter], view, faces, colours(faces, -film.height[frame] / MILLIMETRE, scale, cmap))
+        draw_surface(
+            panels[letter], view, faces, colours(faces, -film.height[frame] / MILLIMETRE, scale, cmap)
+        )
         draw_rim(panels[letter], view, x, y, z)
         time, force = film.time[frame] / MILLISECOND, film.force[frame]
         panels[letter].set_title(f"{letter}  {time:.0f} ms, {force:.3g} N", fontweight="normal", loc="center")
     for letter in LETTERS:
         fit(panels[letter], view, corners, margin=0.0)
     bar = figure.colorbar(
-        ScalarMappable(scale, cmap), ax=[panels[letter] for letter in LETTERS], shrink=0.8, aspect=22, pad=0.01
+        ScalarMappable(scale, cmap),
+        ax=[panels[letter] for letter in LETTERS],
+        shrink=0.8,
+        aspect=22,
+        pad=0.01,
     )
     bar.set_label(f"deflection / mm\n(drawn {factor:g} times as large)")
     bar.outline.set_visible(False)  # type: ignore[operator]
@@ -73,8 +87,12 @@ def _draw_depths(axes, film: Film, shown: list[int]) -> None:  # type: ignore[no
     time = film.time / MILLISECOND
     for place, (layer, depth) in enumerate(film.depth.items()):
         axes.plot(
-            time, depth / MILLIMETRE, label=layer, linewidth=1.6,
-            color=LAYER_COLOURS[place % 6], linestyle=LAYER_STYLES[place % 6],
+            time,
+            depth / MILLIMETRE,
+            label=layer,
+            linewidth=1.6,
+            color=LAYER_COLOURS[place % 6],
+            linestyle=LAYER_STYLES[place % 6],
         )
     top: FloatArray = next(iter(film.depth.values())) / MILLIMETRE
     axes.plot(time[shown], top[shown], "o", color=VERMILION, markersize=4)

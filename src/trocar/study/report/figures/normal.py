@@ -27,7 +27,12 @@ def normal_figure(comparison: Comparison) -> Figure:
     for panel, layer in zip(axes, layers, strict=True):
         truth = comparison["fea"].deflection[layer] / MILLIMETRE
         panel.hist(
-            truth, bins=8, density=True, facecolor="#eceef0", edgecolor=GREY, linewidth=0.5,
+            truth,
+            bins=8,
+            density=True,
+            facecolor="#eceef0",
+            edgecolor=GREY,
+            linewidth=0.5,
             label="samples (finite elements)",
         )
         for history in sorted(comparison.histories, key=lambda history: history.model != "fea"):

@@ -33,7 +33,14 @@ MODEL_LINES: dict[str, dict[str, Any]] = {
 }
 MODEL_MARKS = {"fea": ("s", GREY), "wave-solid": ("o", BLUE), "wave-membrane": ("^", VERMILION)}
 LAYER_COLOURS = (ORANGE, BLUE, GREEN, PURPLE, SKY, VERMILION)
-LAYER_STYLES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1, 2)), (0, (3, 1)), (0, (1, 3)))
+LAYER_STYLES: tuple[Any, ...] = (
+    "-",
+    (0, (5, 2)),
+    (0, (1.5, 1.5)),
+    (0, (6, 2, 1, 2)),
+    (0, (3, 1)),
+    (0, (1, 3)),
+)
 
 _SETTINGS: dict[str, Any] = {
     "font.family": ["DejaVu Sans"],  # comes with matplotlib, so a figure looks the same on every machine

@@ -35,16 +35,25 @@ def supports_figure(supports: Mapping[Support, Comparison]) -> Figure:
             mark, colour = MODEL_MARKS[history.model]
             peak = float(history.block.max())
             axes.plot(
-                peak / MILLIMETRE, place, mark, color=colour, markersize=9 if history.model == "fea" else 6,
+                peak / MILLIMETRE,
+                place,
+                mark,
+                color=colour,
+                markersize=9 if history.model == "fea" else 6,
                 label="" if history.model in names else label(history.model),
-                markerfacecolor="none" if history.model == "fea" else colour, zorder=3,
+                markerfacecolor="none" if history.model == "fea" else colour,
+                zorder=3,
             )
             names.append(history.model)
             if history.model != "fea":
                 differences.append(f"{label(history.model)} {100 * (peak - truth) / truth:+.2g} %")
         deepest = max(float(history.block.max()) for history in comparison.histories)
         axes.annotate(
-            "\n".join(differences), (deepest / MILLIMETRE, place), (9, 0), textcoords="offset points", va="center",
+            "\n".join(differences),
+            (deepest / MILLIMETRE, place),
+            (9, 0),
+            textcoords="offset points",
+            va="center",
             fontsize=8,
         )
     axes.set_yticks(range(len(supports)), [WORDS[support] for support in supports])
