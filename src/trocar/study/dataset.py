@@ -44,8 +44,12 @@ def study_dataset(study: Study, *, created: str, command: str = "") -> xr.Datase
     """
     layers = study.small.case.tissue.layer_names
     cases = {
-        "small": study.small, "paper": study.paper, "tilted": study.tilted, "pair": study.pair, "tap": study.tap,
-    }  # fmt: skip
+        "small": study.small,
+        "paper": study.paper,
+        "tilted": study.tilted,
+        "pair": study.pair,
+        "tap": study.tap,
+    }
     first = next(iter(study.surfaces.values()))
     variables: dict[str, xr.Variable] = {
         "layer": _named("layer", layers, "layer, top first"),
@@ -125,12 +129,16 @@ def _film(study: Study, layers: Sequence[str]) -> dict[str, xr.Variable]:
     return {
         "time_film": _real(("time_film",), film.time, "s", "time since first touch, press and release"),
         "force_film": _real(("time_film",), film.force, "N", "force along the tool, press and release"),
-        "height_film": _real(grid, film.height, "m", "displacement of the top face along z, press and release"),
+        "height_film": _real(
+            grid, film.height, "m", "displacement of the top face along z, press and release"
+        ),
         "depth_film": _real(
-            ("layer", "time_film"), np.stack([film.depth[layer] for layer in layers]), "m",
+            ("layer", "time_film"),
+            np.stack([film.depth[layer] for layer in layers]),
+            "m",
             "deflection of the upper face under the tool's centre, press and release",
         ),
-    }  # fmt: skip
+    }
 
 
 def _per_layer(study: Study, layers: Sequence[str]) -> dict[str, xr.Variable]:
@@ -139,15 +147,29 @@ def _per_layer(study: Study, layers: Sequence[str]) -> dict[str, xr.Variable]:
     strengths = [study.strength[layer] for layer in layers]
     known = np.array([strength.tensile_strength for strength in strengths])
     columns = {
-        "uncertainty_fea": ([n.reference.standard_uncertainty for n in numbers], "m", "numerical uncertainty of fea"),
-        "uncertainty_wave_solid": (
-            [n.model.standard_uncertainty for n in numbers], "m", "numerical uncertainty of wave-solid",
+        "uncertainty_fea": (
+            [n.reference.standard_uncertainty for n in numbers],
+            "m",
+            "numerical uncertainty of fea",
         ),
-        "comparison_error": ([n.comparison.error for n in numbers], "m", "wave-solid minus fea, both refined"),
+        "uncertainty_wave_solid": (
+            [n.model.standard_uncertainty for n in numbers],
+            "m",
+            "numerical uncertainty of wave-solid",
+        ),
+        "comparison_error": (
+            [n.comparison.error for n in numbers],
+            "m",
+            "wave-solid minus fea, both refined",
+        ),
         "stress_small": ([s.at_small for s in strengths], "Pa", "largest von Mises stress, small load"),
         "stress_paper": ([s.at_peak for s in strengths], "Pa", "largest von Mises stress, the paper's load"),
-        "tensile_strength": (np.where(np.isfinite(known), known, np.nan), "Pa", "tensile strength; missing if unknown"),
-    }  # fmt: skip
+        "tensile_strength": (
+            np.where(np.isfinite(known), known, np.nan),
+            "Pa",
+            "tensile strength; missing if unknown",
+        ),
+    }
     for key, (unit, meaning) in _TISSUE.items():
         columns[key] = ([getattr(layer, key) for layer in tissue.layers], unit, meaning)
     return {

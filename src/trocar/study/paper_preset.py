@@ -1,7 +1,7 @@
 """The paper's formula as printed, beside what its own equations give when they are followed.
 
-Printed: u = B11 cos(lambda11 t) sin(pi x/a) sin(pi y/b), equation 5. Corrected: equations 1 to 3 with the factor 4/(a b),
-a shape that is zero on the fixed boundary, tensions that are stress times thickness, and a density of skin.
+Printed: u = B11 cos(lambda11 t) sin(pi x/a) sin(pi y/b), equation 5. Corrected: equations 1 to 3 with the factor
+4/(a b), a shape that is zero on the fixed boundary, tensions that are stress times thickness, and a density of skin.
 
 Source: Patel and Suthakorn, equations 1 to 5 and Table 1; see `trocar.waves.paper`.
 """

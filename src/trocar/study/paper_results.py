@@ -29,7 +29,10 @@ def write_paper_study(
 
     Args:
         study: the results.
-        out, ledger, command, created: as `trocar.study.results.write_study` takes them.
+        out: the folder; new, empty, or an earlier study's, which is replaced whole.
+        ledger: entries of the reproduction ledger as plain values.
+        command: that made it, recorded.
+        created: time of writing; now where None.
 
     Returns:
         The path of the report.

@@ -16,7 +16,7 @@ from trocar.study.dataset import study_dataset
 from trocar.study.folder import fresh_folder
 from trocar.study.protocol import BLOCK, Study
 from trocar.study.report.figures.animation import animation
-from trocar.study.report.linear_range import RangeVerdict, Ranges
+from trocar.study.report.linear_range import Ranges, RangeVerdict
 from trocar.study.report.page import report_page
 from trocar.study.report.pictures import pictures
 from trocar.units import MILLIMETRE
@@ -70,9 +70,14 @@ def write_study(
         write_json(folder / "statistics.json", statistics(study, ranges))
         write_json(folder / "ledger.json", [dict(entry) for entry in ledger])
         page = report_page(
-            study, drawn, film, ledger=ledger, ranges=ranges, command=command,
+            study,
+            drawn,
+            film,
+            ledger=ledger,
+            ranges=ranges,
+            command=command,
             created=f"{moment.astimezone(UTC):%Y-%m-%d %H:%M} UTC",
-        )  # fmt: skip
+        )
         (folder / "report.html").write_text(page, encoding="utf-8")
     return out / "report.html"
 

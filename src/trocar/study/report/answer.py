@@ -71,15 +71,18 @@ def answer(study: Study, ranges: Ranges | None) -> Answer:
     paragraph = (
         f"On {title[0].lower() + title[1:]}, {_support(plan.support)}, pressed with {plan.small:g} N by a "
         f"{plan.diameter / MILLIMETRE:g} mm tool, {label(MODEL)} follows three-dimensional finite elements within "
-        f"{percent(error)} in every layer, at every moment of press and release ({percent(spread)} as NRMSE), where the "
+        f"{percent(error)} in every layer, at every moment of press and release ({percent(spread)} as "
+        "NRMSE), where the "
         f"block deflects {three(peak / MILLIMETRE)} mm. "
         + (
             f"That is more than the uncertainty of computing it, {percent(bound)}. "
             if resolved
-            else f"The uncertainty of computing this difference is {percent(bound)}, so none is left that could be told from "
+            else f"The uncertainty of computing this difference is {percent(bound)}, so none is left that "
+            "could be told from "
             "numerical error. "
         )
-        + f"{label(MEMBRANE)}, the paper's kind of model with fitted coefficients, stays within {percent(by_membrane)}. "
+        + f"{label(MEMBRANE)}, the paper's kind of model with fitted coefficients, "
+        f"stays within {percent(by_membrane)}. "
         f"The same case costs {label(MODEL)} {_times(ratio)} less processor time, set-up included."
     )
     verdict, inside = _paper_verdict(study, ranges)
@@ -124,7 +127,8 @@ def _limits(study: Study) -> tuple[str, ...]:
     worst = {model: _over_time(study.tap, model) for model in (MODEL, MEMBRANE)}
     duration = study.tap.case.duration / MILLISECOND
     sentences.append(
-        f"In motion, during a tap of {duration:g} ms, {label(MODEL)} stays within {percent(worst[MODEL])} of the peak and "
+        f"In motion, during a tap of {duration:g} ms, {label(MODEL)} stays within {percent(worst[MODEL])} "
+        "of the peak and "
         f"{label(MEMBRANE)} within {percent(worst[MEMBRANE])}"
         + (
             ": it is fitted to how the solid answers slow loads and lags behind in faster ones."
@@ -133,7 +137,8 @@ def _limits(study: Study) -> tuple[str, ...]:
         )
     )
     sentences.append(
-        "It is model against model: finite elements of the same linear tissue. No measurement of living tissue is part of "
+        "It is model against model: finite elements of the same linear tissue. No measurement of living "
+        "tissue is part of "
         "it, and the literature's moduli spread far more than the models differ."
     )
     return tuple(sentences)
@@ -152,7 +157,8 @@ def _paper_verdict(study: Study, ranges: Ranges | None) -> tuple[str, bool | Non
         return f"{said}: inside the linear range.", True
     if verdict is not None:
         return (
-            f"{said}: outside the linear range, which ends at {three(verdict.force_limit)} N ({verdict.limiting})."
+            f"{said}: outside the linear range, which ends at {three(verdict.force_limit)} N "
+            f"({verdict.limiting.replace('_', ' ')})."
         ), False
     if depth > thickness:
         return f"{said}, which cannot be: the load is far outside the linear range.", False

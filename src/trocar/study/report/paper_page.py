@@ -35,22 +35,65 @@ def paper_table(study: PaperStudy) -> Table:
     """Return what the paper prints, what its formula gives, and what the corrected one gives."""
     one, two = study.printed, study.corrected
     rows = (
-        ("B11, amplitude of the lowest mode", "6.11×10⁻⁶", _micro(one.b11), _micro(two.b11), "a shape that is zero on the boundary, and equation 3's factor"),
-        ("B11 by equation 4 as it is written", "6.11×10⁻⁶", f"{three(study.b11_with_factor / MILLIMETRE)} mm", "", "the printed value leaves the factor 4/(ab) = 1111 per m² out"),
-        ("lambda11, its angular frequency", "0.686", three(one.lambda11), f"{three(two.lambda11)} rad/s", "tension and density in SI units"),
+        (
+            "B11, amplitude of the lowest mode",
+            "6.11×10⁻⁶",
+            _micro(one.b11),
+            _micro(two.b11),
+            "a shape that is zero on the boundary, and equation 3's factor",
+        ),
+        (
+            "B11 by equation 4 as it is written",
+            "6.11×10⁻⁶",
+            f"{three(study.b11_with_factor / MILLIMETRE)} mm",
+            "",
+            "the printed value leaves the factor 4/(ab) = 1111 per m² out",
+        ),
+        (
+            "lambda11, its angular frequency",
+            "0.686",
+            three(one.lambda11),
+            f"{three(two.lambda11)} rad/s",
+            "tension and density in SI units",
+        ),
         ("its period", "", f"{three(one.period)} s", f"{three(two.period / MILLISECOND)} ms", "2π/lambda11"),
-        ("wave speed", "", three(one.speed_along), f"{three(two.speed_along)} m/s along, {three(two.speed_across)} m/s across", "the fibres carry more along than across"),
-        ("tension", "1.54×10⁻³", three(one.tension_along), f"{three(two.tension_along)} N/m along, {three(two.tension_across)} N/m across", "stress times thickness, not stress times width"),
-        ("mass per area", "", three(one.areal_density), f"{three(two.areal_density)} kg/m²", "a density of skin; the printed 18 g/m³ is lighter than air"),
+        (
+            "wave speed",
+            "",
+            three(one.speed_along),
+            f"{three(two.speed_along)} m/s along, {three(two.speed_across)} m/s across",
+            "the fibres carry more along than across",
+        ),
+        (
+            "tension",
+            "1.54×10⁻³",
+            three(one.tension_along),
+            f"{three(two.tension_along)} N/m along, {three(two.tension_across)} N/m across",
+            "stress times thickness, not stress times width",
+        ),
+        (
+            "mass per area",
+            "",
+            three(one.areal_density),
+            f"{three(two.areal_density)} kg/m²",
+            "a density of skin; the printed 18 g/m³ is lighter than air",
+        ),
         ("largest displacement at the start", "", _micro(one.peak), _micro(two.peak), "all modes together"),
-        ("shape at the middle of a fixed side", "", f"{three(one.on_boundary / MILLIMETRE)} mm", "0", "5x(1−x)y(1−y) is made for a unit square; 5x(a−x)y(b−y) fits this one"),
+        (
+            "shape at the middle of a fixed side",
+            "",
+            f"{three(one.on_boundary / MILLIMETRE)} mm",
+            "0",
+            "5x(1−x)y(1−y) is made for a unit square; 5x(a−x)y(b−y) fits this one",
+        ),
         ("modes", "1", count(one.modes), count(two.modes), "up to the width of the tool"),
-    )  # fmt: skip
+    )
     return Table(
         caption="The dermis let go from its start.",
         head=("", "printed in the paper", "its formula, recomputed", "corrected", "what is different"),
         rows=rows,
-        note="Numbers without a unit in the second and third column are plain numbers: with the units printed beside the "
+        note="Numbers without a unit in the second and third column are plain numbers: with the units "
+        "printed beside the "
         "inputs they would not have the unit of what they are called.",
     )
 
@@ -99,7 +142,16 @@ def _micro(value: float) -> str:
 
 def _plain(swing: Swing) -> dict[str, float]:
     keys = (
-        "b11", "lambda11", "period", "speed_along", "speed_across", "tension_along", "tension_across", "areal_density",
-        "peak", "on_boundary", "modes",
-    )  # fmt: skip
+        "b11",
+        "lambda11",
+        "period",
+        "speed_along",
+        "speed_across",
+        "tension_along",
+        "tension_across",
+        "areal_density",
+        "peak",
+        "on_boundary",
+        "modes",
+    )
     return {key: getattr(swing, key) for key in keys}

@@ -49,14 +49,16 @@ def pictures(study: Study) -> Mapping[str, Picture]:
         Picture(
             name="deflection-paper-load",
             alt=deflection_alt(paper) + f" The block is only {thickness:.3g} mm thick.",
-            caption=f"The same under the paper's {paper.case.peak_force:g} N. Not a prediction: linear models that agree "
+            caption=f"The same under the paper's {paper.case.peak_force:g} N. Not a prediction: linear "
+            "models that agree "
             "with one another are not thereby right.",
             figure=deflection_figure(paper, depth_limit=True),
         ),
         Picture(
             name="supports",
             alt=supports_alt(study.supports),
-            caption="Sides that are clamped are not sine waves: where they matter, the wave models err on the soft side.",
+            caption="Sides that are clamped are not sine waves: where they matter, the wave models err "
+            "on the soft side.",
             figure=supports_figure(study.supports),
         ),
         Picture(
@@ -74,7 +76,8 @@ def pictures(study: Study) -> Mapping[str, Picture]:
         Picture(
             name="filmstrip",
             alt=film_alt(study.film),
-            caption="Moments of the film: pressing (a to c), let go at once (d), swinging back to the rest shape (e, f).",
+            caption="Moments of the film: pressing (a to c), let go at once (d), swinging back to the "
+            "rest shape (e, f).",
             figure=film_figure(study.film),
         ),
         Picture(

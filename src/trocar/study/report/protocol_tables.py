@@ -20,23 +20,69 @@ def protocol_table(study: Study) -> Table:
     places = " and ".join(f"{tool.position[0] / MILLIMETRE:g} mm" for tool in study.pair.case.tools)
     ramp = plan.peak / RATE
     rows = (
-        ("block", "60 mm × 60 mm; the dermis 1 mm thick, the other layers not printed", f"{a} mm × {b} mm; {layers}"),
-        ("tissue", "moduli, Poisson's ratios, damping: “literature values”, not printed", "the table of the tissue, each value with its source"),
-        ("support", "“fixed support at all edges”; the base is not mentioned", f"{_support(study)}; the others in the table of supports"),
-        ("tool", "5 to 8 mm, shape and contact not stated", f"flat disc of {plan.diameter / MILLIMETRE:g} mm, the force spread evenly over it"),
+        (
+            "block",
+            "60 mm × 60 mm; the dermis 1 mm thick, the other layers not printed",
+            f"{a} mm × {b} mm; {layers}",
+        ),
+        (
+            "tissue",
+            "moduli, Poisson's ratios, damping: “literature values”, not printed",
+            "the table of the tissue, each value with its source",
+        ),
+        (
+            "support",
+            "“fixed support at all edges”; the base is not mentioned",
+            f"{_support(study)}; the others in the table of supports",
+        ),
+        (
+            "tool",
+            "5 to 8 mm, shape and contact not stated",
+            f"flat disc of {plan.diameter / MILLIMETRE:g} mm, the force spread evenly over it",
+        ),
         (
             "load",
             "5 N at 0.05 N/s on and off, “over a time period of 100 seconds”: 5 N takes 100 s each way",
-            f"{plan.peak:g} N, {ramp:g} s up and {ramp:g} s down; besides, {plan.small:g} N, which linear theory can bear",
+            (
+                f"{plan.peak:g} N, {ramp:g} s up and {ramp:g} s down; besides, {plan.small:g} N, which linear "
+                "theory can bear"
+            ),
         ),
-        ("load in the wave model", "none: its equation 5 only releases an initial shape", "the same traction in every model"),
-        ("wave model", "one membrane, one mode, of the dermis", f"{count(study.small['wave-solid'].dofs)} unknowns (WaveSolid), {count(study.small['wave-membrane'].dofs)} (WaveMembrane)"),
-        ("finite elements", "program, elements and mesh not stated", f"20-node bricks, {count(study.small['fea'].dofs)} unknowns in a quarter of the block"),
-        ("sampling", "not stated; its t critical fits 81 samples a model", f"{study.small['fea'].time.size} samples, every {PERIOD:g} s of {2 * ramp:g} s"),
-        ("tool at an angle", "drawn, the angle not stated", f"{plan.tilt / DEGREE:g}° from the normal, {plan.small:g} N along the tool"),
+        (
+            "load in the wave model",
+            "none: its equation 5 only releases an initial shape",
+            "the same traction in every model",
+        ),
+        (
+            "wave model",
+            "one membrane, one mode, of the dermis",
+            (
+                f"{count(study.small['wave-solid'].dofs)} unknowns (WaveSolid), "
+                f"{count(study.small['wave-membrane'].dofs)} (WaveMembrane)"
+            ),
+        ),
+        (
+            "finite elements",
+            "program, elements and mesh not stated",
+            f"20-node bricks, {count(study.small['fea'].dofs)} unknowns in a quarter of the block",
+        ),
+        (
+            "sampling",
+            "not stated; its t critical fits 81 samples a model",
+            f"{study.small['fea'].time.size} samples, every {PERIOD:g} s of {2 * ramp:g} s",
+        ),
+        (
+            "tool at an angle",
+            "drawn, the angle not stated",
+            f"{plan.tilt / DEGREE:g}° from the normal, {plan.small:g} N along the tool",
+        ),
         ("two tools", "drawn, places not stated", f"at x = {places}, {plan.small:g} N each"),
-        ("motion", "“static mechanical study”", f"quasi-static; besides, a tap of {2 * TAP / MILLISECOND:g} ms with inertia and damping"),
-    )  # fmt: skip
+        (
+            "motion",
+            "“static mechanical study”",
+            f"quasi-static; besides, a tap of {2 * TAP / MILLISECOND:g} ms with inertia and damping",
+        ),
+    )
     return Table(
         caption="The protocol: what the paper says, and what was done here where it leaves something open.",
         head=("", "the paper", "here"),

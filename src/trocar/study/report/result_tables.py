@@ -72,7 +72,8 @@ def support_table(study: Study) -> Table:
             )
             rows.append((WORDS[support].replace("\n", " "), layer, three(peak / MILLIMETRE), *others))
     return Table(
-        caption=f"Largest deflection under {study.plan.small:g} N for each support; wave models as difference from finite "
+        caption=f"Largest deflection under {study.plan.small:g} N for each support; wave models as "
+        "difference from finite "
         "elements.",
         head=("support", "upper face of", "finite elements / mm", *(label(model) for model in JUDGED)),
         rows=tuple(rows),
@@ -97,19 +98,24 @@ def range_table(study: Study, ranges: Ranges | None) -> Table:
                 percent(verdict.deflection_share),
                 percent(verdict.strain),
                 three(verdict.slope),
-                verdict.limiting,
+                verdict.limiting.replace("_", " "),
                 three(verdict.force_limit) if isfinite(verdict.force_limit) else "none",
             )
         )
     return Table(
         caption="Whether each case lies inside the range in which small-strain theory holds.",
         head=(
-            "case", "linear range", "deflection / thickness", "largest strain", "largest slope", "decided by",
+            "case",
+            "linear range",
+            "deflection / thickness",
+            "largest strain",
+            "largest slope",
+            "decided by",
             "range ends at / N",
         ),
         rows=tuple(rows),
         numeric=(2, 3, 4, 6),
-    )  # fmt: skip
+    )
 
 
 def strength_table(study: Study, *, predicted: bool) -> Table:
@@ -138,7 +144,8 @@ def strength_table(study: Study, *, predicted: bool) -> Table:
         ),
         rows=tuple(rows),
         numeric=(1, 2, 3, 4),
-        note="Taken at the points inside the elements where stresses are most accurate. Under the rim of a flat disc the "
+        note="Taken at the points inside the elements where stresses are most accurate. Under the rim of "
+        "a flat disc the "
         "linear stress of the top layer has no bound: its value grows as the mesh is refined.",
     )
 
@@ -175,7 +182,9 @@ def cost_table(study: Study) -> Table:
         ),
         rows=tuple(rows),
         numeric=(2, 3, 4, 5, 6),
-        note="Set-up is building the model and, where the load is followed through equilibria, one solution for each tool: "
+        note="Set-up is building the model and, where the load is followed through equilibria, one "
+        "solution for each tool: "
         "linear models scale and add it for every sample. Finite elements use the block's symmetry, so their unknowns "
-        f"count the part they solve. Compiling the wave models took {study.compile_seconds:.1f} s, apart; it is cached.",
+        f"count the part they solve. Compiling the wave models took {study.compile_seconds:.1f} s, apart; "
+        "it is cached.",
     )

@@ -74,15 +74,22 @@ def normal_table(study: Study) -> Table:
             )
         )
     return Table(
-        caption="Normal distributions fitted to the samples, as published, and whether finite elements' samples are normal.",
+        caption="Normal distributions fitted to the samples, as published, and whether finite elements' "
+        "samples are normal.",
         head=(
-            "model", "upper face of", "mean, finite elements / mm", "mean, model / mm", "sd, finite elements / mm",
-            "sd, model / mm", "Shapiro-Wilk p",
+            "model",
+            "upper face of",
+            "mean, finite elements / mm",
+            "mean, model / mm",
+            "sd, finite elements / mm",
+            "sd, model / mm",
+            "Shapiro-Wilk p",
         ),
         rows=tuple(rows),
         numeric=(2, 3, 4, 5, 6),
-        note="A small Shapiro-Wilk p says that the samples are not normal. They cannot be: they rise and fall with the load.",
-    )  # fmt: skip
+        note="A small Shapiro-Wilk p says that the samples are not normal. They cannot be: they rise and "
+        "fall with the load.",
+    )
 
 
 def agreement_table(study: Study) -> Table:
@@ -99,21 +106,31 @@ def agreement_table(study: Study) -> Table:
                 percent(curve.largest_relative_error),
                 f"{curve.peak.time:g} ± {curve.peak.resolution:.3g}",
                 f"{curve.peak.force:g}",
-                f"{three(limits.bias / MICROMETRE)} ({three(limits.lower / MICROMETRE)} to {three(limits.upper / MICROMETRE)})",
+                (
+                    f"{three(limits.bias / MICROMETRE)} ({three(limits.lower / MICROMETRE)} to "
+                    f"{three(limits.upper / MICROMETRE)})"
+                ),
                 three(1 - curve.concordance.value),
             )
         )
     return Table(
         caption=f"Agreement of whole curves with finite elements under {study.plan.small:g} N.",
         head=(
-            "model", "upper face of", "NRMSE", "largest error / µm", "of the range", "peak shift / s", "peak shift / N",
-            "bias (limits of agreement) / µm", "1 − concordance",
+            "model",
+            "upper face of",
+            "NRMSE",
+            "largest error / µm",
+            "of the range",
+            "peak shift / s",
+            "peak shift / N",
+            "bias (limits of agreement) / µm",
+            "1 − concordance",
         ),
         rows=tuple(rows),
         numeric=(2, 3, 4, 5, 6, 7, 8),
         note="NRMSE: root mean square error over the range of finite elements. Limits: Bland and Altman's, 95 %. "
         "Concordance: Lin's coefficient, shown as its distance from perfect agreement.",
-    )  # fmt: skip
+    )
 
 
 def equivalence_table(study: Study) -> Table:
@@ -138,15 +155,23 @@ def equivalence_table(study: Study) -> Table:
     return Table(
         caption=f"Equivalence by two one-sided tests under {study.plan.small:g} N.",
         head=(
-            "model", "upper face of", "margin / µm", "mean difference / µm", "90 % interval / µm", "p", "equivalent",
-            "independent samples", "equivalent, with these",
+            "model",
+            "upper face of",
+            "margin / µm",
+            "mean difference / µm",
+            "90 % interval / µm",
+            "p",
+            "equivalent",
+            "independent samples",
+            "equivalent, with these",
         ),
         rows=tuple(rows),
         numeric=(2, 3, 4, 5),
-        note="The interval, p and the first verdict treat all samples as independent, as the paper's test does. Neighbouring "
+        note="The interval, p and the first verdict treat all samples as independent, as the paper's "
+        "test does. Neighbouring "
         "points of one curve are not: the last columns say how many independent samples they are worth and what a test "
         "with so few can show. Below two, no test is possible, and the error itself, above, is the evidence.",
-    )  # fmt: skip
+    )
 
 
 def uncertainty_table(study: Study) -> Table:
@@ -166,15 +191,22 @@ def uncertainty_table(study: Study) -> Table:
             )
         )
     return Table(
-        caption="WaveSolid minus finite elements on the finest mesh with the most modes, and what refinement says of both.",
+        caption="WaveSolid minus finite elements on the finest mesh with the most modes, and what "
+        "refinement says of both.",
         head=(
-            "upper face of", "difference ± 2 u / µm", "u, finite elements / µm", "mesh refinement", "u, WaveSolid / µm",
-            "mode refinement", "the difference is",
+            "upper face of",
+            "difference ± 2 u / µm",
+            "u, finite elements / µm",
+            "mesh refinement",
+            "u, WaveSolid / µm",
+            "mode refinement",
+            "the difference is",
         ),
         rows=tuple(rows),
         numeric=(1, 2, 4),
-        note="u: standard numerical uncertainty, from three refinements by Richardson extrapolation (Roache 1994; ASME V&V 20).",
-    )  # fmt: skip
+        note="u: standard numerical uncertainty, from three refinements by Richardson extrapolation "
+        "(Roache 1994; ASME V&V 20).",
+    )
 
 
 def ledger_rows(ledger: tuple[Mapping[str, object], ...]) -> Table:
@@ -197,7 +229,8 @@ def ledger_rows(ledger: tuple[Mapping[str, object], ...]) -> Table:
         head=("entry", "published", "recomputed", "unit", "verdict", "note"),
         rows=tuple(rows),
         numeric=(1, 2),
-        note="reproduced: the stated inputs give the stated value, to the printed digits; inconsistent: they do not; not "
+        note="reproduced: the stated inputs give the stated value, to the printed digits; inconsistent: "
+        "they do not; not "
         "specified: the text does not say enough.",
     )
 

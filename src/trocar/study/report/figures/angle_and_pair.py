@@ -56,7 +56,7 @@ def angle_and_pair_figure(tilted: Shown, pair: Shown) -> Figure:
     axes[1, 0].set_ylabel("deflection / mm")
     bar = figure.colorbar(ScalarMappable(scale, cmap), ax=axes[0, :], shrink=0.75, aspect=18, pad=0.01)
     bar.set_label(f"deflection / mm\n(drawn {factor:g} times as large)")
-    bar.outline.set_visible(False)  # type: ignore[operator]
+    bar.outline.set_visible(False)
     return figure
 
 
@@ -82,13 +82,13 @@ def _draw_forces(axes: Axes, view: View, case: Case) -> None:
         tail = point - ARROW * (along - np.array([0.0, 0.0, np.cos(tool.tilt)]))
         axes.annotate(
             "",
-            view.project(point),
-            view.project(tail),
+            view.at(*point),
+            view.at(*tail),
             arrowprops={"arrowstyle": "-|>", "color": VERMILION, "linewidth": 2, "shrinkA": 0, "shrinkB": 0},
         )
         axes.annotate(
             f"{tool.peak:g} N",
-            view.project(tail),
+            view.at(*tail),
             (4, 0),
             textcoords="offset points",
             va="center",

@@ -13,12 +13,14 @@ import matplotlib as mpl
 import numpy as np
 import numpy.typing as npt
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from PIL import Image
 
+from trocar.model import FloatArray
 from trocar.study.film import Film
 from trocar.study.report.figures.axonometry import View, colours, draw_surface, fit, quads
 from trocar.study.report.figures.block import enlargement
@@ -177,8 +179,8 @@ def _frames(film: Film) -> list[npt.NDArray[np.uint8]]:
     moving: tuple[Artist, ...] = (face, arrow, clock, at_force, at_depth)
     for artist in moving:
         artist.set_animated(True)
-    canvas.draw()
-    ground = canvas.copy_from_bbox(figure.bbox)
+    canvas.draw()  # type: ignore[no-untyped-call]
+    ground = canvas.copy_from_bbox(figure.bbox)  # type: ignore[no-untyped-call]
 
     top = next(iter(film.depth.values())) / MILLIMETRE
     middle = np.array([x.mean(), y.mean(), 0.0])
@@ -186,28 +188,28 @@ def _frames(film: Film) -> list[npt.NDArray[np.uint8]]:
     for i, time in enumerate(film.time / MILLISECOND):
         faces = quads(x, y, factor * height[i])
         _move(face, view.project(faces[order]), colours(faces, -height[i], scale, cmap)[order])
-        tip = middle + [0, 0, -factor * top[i]]
+        tip = middle - np.array([0, 0, factor * top[i]])
         share = film.force[i] / film.force.max()
         arrow.set_visible(bool(share > 0))
-        arrow.xy = tuple(view.project(tip))
-        arrow.set_position(tuple(view.project(tip + [0, 0, 4.0 + 12.0 * share])))
+        arrow.xy = view.at(*tip)
+        arrow.set_position(view.at(*tip[:2], tip[2] + 4.0 + 12.0 * share))
         clock.set_text(f"{time:5.0f} ms    {film.force[i]:.3f} N    {top[i]:6.2f} mm".replace("-", "−"))
         at_force.set_data([time], [film.force[i]])
         at_depth.set_data([time], [top[i]])
-        canvas.restore_region(ground)  # type: ignore[attr-defined]
+        canvas.restore_region(ground)  # type: ignore[no-untyped-call]
         for artist in moving:
             figure.draw_artist(artist)
-        pictures.append(np.asarray(canvas.buffer_rgba())[..., :3].copy())
+        pictures.append(np.asarray(canvas.buffer_rgba())[..., :3].copy())  # type: ignore[no-untyped-call]
     return pictures
 
 
-def _move(face: PolyCollection, places, rgba) -> None:  # type: ignore[no-untyped-def]
-    face.set_verts(places)
-    face.set_facecolor(rgba)
-    face.set_edgecolor(rgba)
+def _move(face: PolyCollection, places: FloatArray, rgba: FloatArray) -> None:
+    face.set_verts(list(places))
+    face.set_facecolor(rgba)  # type: ignore[arg-type]
+    face.set_edgecolor(rgba)  # type: ignore[arg-type]
 
 
-def _draw_curves(force, depth, film: Film) -> None:  # type: ignore[no-untyped-def]
+def _draw_curves(force: Axes, depth: Axes, film: Film) -> None:
     time = film.time / MILLISECOND
     force.plot(time, film.force, color=GREY, linewidth=1.4)
     force.set_ylim(0, 1.15 * film.force.max())

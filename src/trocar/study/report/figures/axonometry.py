@@ -39,6 +39,11 @@ class View:
         right, away = c * x - s * y, s * x + c * y
         return np.stack([right, away * np.sin(self.rise) + z * np.cos(self.rise)], axis=-1)
 
+    def at(self, *point: float) -> tuple[float, float]:
+        """Return the place on paper of one point x, y, z."""
+        right, up = self.project(np.array(point))
+        return float(right), float(up)
+
     def distance(self, points: FloatArray) -> FloatArray:
         """Return how far points lie from the eye, up to a constant, shape (...)."""
         c, s = np.cos(self.turn), np.sin(self.turn)
@@ -51,7 +56,8 @@ def quads(x: FloatArray, y: FloatArray, z: FloatArray) -> FloatArray:
     """Return the four corners of every cell of a grid, shape (cells, 4, 3).
 
     Args:
-        x, y: of the grid lines, shapes (n,), (m,).
+        x: of the grid lines across x, shape (n,).
+        y: of the grid lines across y, shape (m,).
         z: heights, shape (n, m).
     """
     grid_x, grid_y = np.meshgrid(x, y, indexing="ij")
@@ -82,14 +88,11 @@ def draw_surface(
     view: View,
     faces: FloatArray,
     rgba: FloatArray,
-    **style: Any,
 ) -> PolyCollection:
     """Draw faces, the farthest first, and return them."""
     order = np.argsort(-view.distance(faces.mean(axis=1)))
     flat = view.project(faces[order])
-    drawn = PolyCollection(
-        list(flat), facecolors=rgba[order], **({"edgecolors": "face", "linewidth": 0.3} | style)
-    )
+    drawn = PolyCollection(list(flat), facecolors=rgba[order], edgecolors="face", linewidths=0.3)
     drawn.set_rasterized(True)  # thousands of faces would make a vector file of megabytes
     axes.add_collection(drawn)
     return drawn

@@ -70,7 +70,7 @@ def block_figure(case: Case, surface: Surface) -> Figure:
         ScalarMappable(scale, cmap), ax=axes, orientation="horizontal", shrink=0.45, aspect=28, pad=0.01
     )
     bar.set_label("deflection of each layer's upper face / mm")
-    bar.outline.set_visible(False)  # type: ignore[operator]
+    bar.outline.set_visible(False)
     axes.set_title(f"Layers to scale and taken apart; displacements drawn {factor:g} times as large")
     return figure
 
@@ -139,7 +139,7 @@ def _pale(place: int, share: float) -> tuple[float, ...]:
 
 
 def _name(axes: Axes, view: View, corner: tuple[float, float, float], layer: Layer) -> None:
-    right, up = view.project(np.array(corner))
+    right, up = view.at(*corner)
     axes.text(right + 1.5, up, layer.name, fontweight="bold", va="bottom")
     axes.text(
         right + 1.5,
@@ -159,7 +159,7 @@ def _draw_tool(axes: Axes, view: View, case: Case, face: float) -> None:
     cx, cy = (part / MILLIMETRE for part in tool.position)
     ring = np.stack([cx + radius * np.cos(angle), cy + radius * np.sin(angle), np.full_like(angle, face)], 1)
     foot = view.project(ring)
-    lid = view.project(ring + [0, 0, 12.0 - face])
+    lid = view.project(ring + np.array([0, 0, 12.0 - face]))
     left, right = foot[:, 0].argmin(), foot[:, 0].argmax()
     front = foot[np.r_[left : right + 1]] if left < right else foot[np.r_[left : len(foot), 0 : right + 1]]
     body = np.concatenate([front, lid[[right]], lid[[left]]])
@@ -167,8 +167,8 @@ def _draw_tool(axes: Axes, view: View, case: Case, face: float) -> None:
     axes.fill(lid[:, 0], lid[:, 1], facecolor="#e3e6e9", edgecolor=GREY, linewidth=0.6)
     axes.annotate(
         f"{tool.peak:g} N on a {tool.diameter / MILLIMETRE:g} mm disc",
-        lid[lid[:, 0].argmax()],
-        (view.project(np.array([0.62, 1.0, 0.0]) * [*case.size, 0.0] / MILLIMETRE) + [0, 3.0]),
+        tuple(lid[lid[:, 0].argmax()]),
+        view.at(0.62 * case.size[0] / MILLIMETRE, case.size[1] / MILLIMETRE, 3.0),
         arrowprops={"arrowstyle": "-", "color": GREY, "linewidth": 0.7},
         fontsize=8.5,
     )

@@ -41,8 +41,7 @@ def cost_figure(cases: Mapping[str, Comparison]) -> Figure:
         panel.set_xscale("log")
         panel.grid(axis="y", visible=False)
         panel.set_title(name)
-    low, high = axes[0].get_xlim()
-    axes[0].set_xlim(LEAST, 2.2 * high)
+    axes[0].set_xlim(LEAST, 2.2 * axes[0].get_xlim()[1])
     axes[-1].set_xlabel("processor time / s (hatched: set-up; logarithmic)")
     return figure
 

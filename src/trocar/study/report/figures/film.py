@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
@@ -68,7 +69,7 @@ def film_figure(film: Film) -> Figure:
         pad=0.01,
     )
     bar.set_label(f"deflection / mm\n(drawn {factor:g} times as large)")
-    bar.outline.set_visible(False)  # type: ignore[operator]
+    bar.outline.set_visible(False)
     _draw_depths(panels["t"], film, shown)
     return figure
 
@@ -83,7 +84,7 @@ def film_alt(film: Film) -> str:
     )
 
 
-def _draw_depths(axes, film: Film, shown: list[int]) -> None:  # type: ignore[no-untyped-def]
+def _draw_depths(axes: Axes, film: Film, shown: list[int]) -> None:
     time = film.time / MILLISECOND
     for place, (layer, depth) in enumerate(film.depth.items()):
         axes.plot(

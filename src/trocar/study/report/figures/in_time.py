@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from trocar.study.compare import Comparison
-from trocar.study.report.figures.style import GREY, MODEL_LINES, VERMILION, label, sheet, styled, three
+from trocar.study.report.figures.style import GREY, MODEL_LINES, label, sheet, styled, three
 from trocar.units import MILLIMETRE, MILLISECOND
 
 
@@ -47,5 +47,6 @@ def tap_alt(comparison: Comparison) -> str:
     )
     return (
         f"Deflection of the block during a tap up to {comparison.case.peak_force:g} N: it follows the force late and "
-        f"peaks at {three(float(truth.max()) / MILLIMETRE)} mm. Differences from finite elements, of the peak: {others}."
+        f"peaks at {three(float(truth.max()) / MILLIMETRE)} mm. Differences from finite elements, of the "
+        f"peak: {others}."
     )

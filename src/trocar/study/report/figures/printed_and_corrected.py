@@ -34,7 +34,9 @@ def printed_and_corrected_alt(study: PaperStudy) -> str:
     """Return what the figure shows, in words."""
     printed, corrected = study.printed, study.corrected
     return (
-        f"Displacement of the middle against time. As printed, a cosine of {three(printed.peak / MICROMETRE)} µm with a "
-        f"period of {three(printed.period)} s. Corrected, it starts at {three(corrected.peak / MICROMETRE)} µm and swings "
+        "Displacement of the middle against time. As printed, a cosine of "
+        f"{three(printed.peak / MICROMETRE)} µm with a "
+        f"period of {three(printed.period)} s. Corrected, it starts at "
+        f"{three(corrected.peak / MICROMETRE)} µm and swings "
         f"with a period of {three(corrected.period / MILLISECOND)} ms, no longer a pure cosine."
     )

@@ -12,7 +12,6 @@ from functools import wraps
 from typing import Any, ParamSpec
 
 import matplotlib as mpl
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 P = ParamSpec("P")
@@ -77,7 +76,9 @@ _SETTINGS: dict[str, Any] = {
 @contextmanager
 def settings() -> Iterator[None]:
     """Draw or save with the house's settings, then put back what was there."""
-    with mpl.rc_context({**mpl.rcParamsDefault, "backend": "agg", **_SETTINGS}):
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(_SETTINGS)  # type: ignore[arg-type]
         yield
 
 
@@ -102,14 +103,8 @@ def label(model: str) -> str:
     return MODEL_LABELS.get(model, model)
 
 
-def plain(axes: Axes) -> None:
-    """Take frame, ticks and grid off axes that hold a picture."""
-    axes.set_axis_off()
-    axes.set_aspect("equal")
-
-
 def three(value: float) -> str:
-    """Return a number with three significant digits and a true minus sign, without an exponent where it can be read without."""
+    """Return a number with three significant digits and a true minus sign; very large and small ones with an exponent."""
     if value == 0:
         return "0"
     if not 1e-4 <= abs(value) < 1e5:
