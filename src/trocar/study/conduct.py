@@ -51,8 +51,7 @@ def conduct(
         SolverError: a model could not be solved.
     """
     check_folder(out)
-    for case in (plan.central(plan.small), plan.central(plan.peak), plan.tilted(), plan.pair(), plan.tap()):
-        assert case.tools
+    _refuse_impossible(plan)
     study = run_study(plan, lambda what, share: watch(what, STUDY_SHARE * share))
     began = perf_counter()
     watch("drawing and writing", STUDY_SHARE)
@@ -71,6 +70,14 @@ def conduct_paper(out: Path, *, command: str = "") -> tuple[PaperStudy, Path]:
     check_folder(out)
     study = run_paper_study()
     return study, write_paper_study(study, out, ledger=_ledger(None), command=command)
+
+
+def _refuse_impossible(plan: Plan) -> None:
+    """Make every case once: each refuses what it cannot be, before any is computed."""
+    for load in (plan.small, plan.peak):
+        plan.central(load)
+    for case in (plan.tilted, plan.pair, plan.tap):
+        case()
 
 
 def _ledger(study: Study | None) -> Sequence[Mapping[str, object]]:

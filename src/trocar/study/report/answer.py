@@ -78,8 +78,7 @@ def answer(study: Study, ranges: Ranges | None) -> Answer:
             f"That is more than the uncertainty of computing it, {percent(bound)}. "
             if resolved
             else f"The uncertainty of computing this difference is {percent(bound)}, so none is left that "
-            "could be told from "
-            "numerical error. "
+            "could be told from numerical error. "
         )
         + f"{label(MEMBRANE)}, the paper's kind of model with fitted coefficients, "
         f"stays within {percent(by_membrane)}. "

@@ -104,7 +104,7 @@ def label(model: str) -> str:
 
 
 def three(value: float) -> str:
-    """Return a number with three significant digits and a true minus sign; very large and small ones with an exponent."""
+    """Return a number with three significant digits, very large and small ones as a power of ten."""
     if value == 0:
         return "0"
     if not 1e-4 <= abs(value) < 1e5:
