@@ -12,7 +12,14 @@ LIMIT = 120  # [s] of ours
 
 def find() -> str | None:
     """Return the program, or None where it is not installed."""
-    return next((found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None)
+    return next(
+        (
+            found
+            for name in ("chromium", "chromium-browser", "google-chrome")
+            if (found := shutil.which(name))
+        ),
+        None,
+    )
 
 
 def look(program: str, page: Path, profile: Path, *flags: str) -> tuple[str, list[str]]:

@@ -36,7 +36,9 @@ def browser():
 
 @pytest.fixture(scope="module")
 def report(study, tmp_path_factory):
-    return write_study(study, tmp_path_factory.mktemp("browser") / "study", ledger=LEDGER, command="trocar study")
+    return write_study(
+        study, tmp_path_factory.mktemp("browser") / "study", ledger=LEDGER, command="trocar study"
+    )
 
 
 def test_it_opens_without_a_complaint(browser, report, tmp_path):

@@ -69,7 +69,13 @@ def test_flags_reach_the_plan(app, asked, tmp_path):
     )  # fmt: skip
     (plan,) = asked
     assert plan == Plan(
-        tissue="liver", support="edges+base", diameter=0.008, peak=2.0, small=0.02, quick=True, tilt=radians(30)
+        tissue="liver",
+        support="edges+base",
+        diameter=0.008,
+        peak=2.0,
+        small=0.02,
+        quick=True,
+        tilt=radians(30),
     )
 
 

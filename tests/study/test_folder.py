@@ -20,6 +20,12 @@ def write(out, text="new"):
         fill(folder, text)
 
 
+def write_and_raise(out, error):
+    with fresh_folder(out) as folder:
+        fill(folder)
+        raise error
+
+
 def names(folder):
     return sorted(entry.name for entry in folder.iterdir())
 
@@ -44,18 +50,16 @@ def test_nothing_is_there_until_all_is_written(tmp_path):
 
 
 def test_an_error_leaves_nothing(tmp_path):
-    with pytest.raises(RuntimeError), fresh_folder(tmp_path / "study") as folder:
-        fill(folder)
-        raise RuntimeError("the disk is full")
+    with pytest.raises(RuntimeError):
+        write_and_raise(tmp_path / "study", RuntimeError("the disk is full"))
     assert names(tmp_path) == []
 
 
 def test_an_error_leaves_an_earlier_study_as_it_was(tmp_path):
     out = tmp_path / "study"
     write(out, "old")
-    with pytest.raises(KeyboardInterrupt), fresh_folder(out) as folder:
-        fill(folder)
-        raise KeyboardInterrupt
+    with pytest.raises(KeyboardInterrupt):
+        write_and_raise(out, KeyboardInterrupt())
     assert names(tmp_path) == ["study"]
     assert (out / "report.html").read_text() == "old"
 
@@ -114,10 +118,12 @@ def test_a_folder_without_our_marks_is_refused(tmp_path):
 
 def test_a_folder_filled_while_the_study_ran_is_kept(tmp_path):
     out = tmp_path / "study"
-    with pytest.raises(InputError), fresh_folder(out) as folder:
-        fill(folder)
-        out.mkdir()
-        (out / "thesis.docx").write_text("mine")
+    meanwhile = fresh_folder(out)
+    fill(meanwhile.__enter__())
+    out.mkdir()
+    (out / "thesis.docx").write_text("mine")
+    with pytest.raises(InputError):
+        meanwhile.__exit__(None, None, None)
     assert names(tmp_path) == ["study"]
     assert names(out) == ["thesis.docx"]
 

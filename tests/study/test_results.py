@@ -57,7 +57,9 @@ def test_the_curves_are_tidy(out, study):
     with (out / "curves.csv").open(newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     assert tuple(rows[0]) == CURVE_COLUMNS
-    assert all(isfinite(float(row[key])) for row in rows for key in ("time_s", "force_n", "max_deflection_mm"))
+    assert all(
+        isfinite(float(row[key])) for row in rows for key in ("time_s", "force_n", "max_deflection_mm")
+    )
     block = [row for row in rows if (row["case"], row["model"], row["layer"]) == ("paper", "fea", "block")]
     assert [float(row["max_deflection_mm"]) for row in block] == pytest.approx(1e3 * study.paper["fea"].block)
     assert {row["support"] for row in rows} == {"edges", "edges+base", "base"}
@@ -81,7 +83,14 @@ def test_statistics_and_ledger_are_json_of_any_reader(out, study):
 
 def test_a_range_goes_into_the_statistics(study):
     class Verdict:
-        strain, deflection_share, slope, inside, limiting, force_limit = 0.02, 0.03, 0.1, True, "strain", float("inf")
+        strain, deflection_share, slope, inside, limiting, force_limit = (
+            0.02,
+            0.03,
+            0.1,
+            True,
+            "strain",
+            float("inf"),
+        )
 
     said = statistics(study, {"small": Verdict()})["linear_range"]
     assert said["small"]["inside"] is True

@@ -3,6 +3,7 @@
 import re
 from dataclasses import dataclass
 from html.parser import HTMLParser
+from itertools import pairwise
 
 import pytest
 
@@ -100,7 +101,7 @@ def test_headings_do_not_skip_a_level(outline):
     levels = [level for level, _ in outline.headings]
     assert levels[0] == 1
     assert levels.count(1) == 1
-    assert all(later - earlier <= 1 for earlier, later in zip(levels, levels[1:], strict=False))
+    assert all(later - earlier <= 1 for earlier, later in pairwise(levels))
 
 
 def test_pictures_are_described_and_tables_named(drawn, outline):
@@ -134,7 +135,9 @@ def test_the_papers_load_is_marked_as_no_prediction(study, page):
 
 
 def test_a_range_that_is_given_is_shown(study):
-    rows = {row[0]: row for row in range_table(study, {"small": Verdict(), "paper": Verdict(inside=False)}).rows}
+    rows = {
+        row[0]: row for row in range_table(study, {"small": Verdict(), "paper": Verdict(inside=False)}).rows
+    }
     names = {key: name for key, (name, _) in cases(study).items()}
     assert rows[names["small"]][1:4] == ("inside", "3.0 %", "2.0 %")
     assert rows[names["paper"]][1] == "OUTSIDE"
