@@ -39,6 +39,10 @@ docs: .venv/ready  ## build the documentation into docs/_build/html; a warning i
 	@.venv/bin/sphinx-build -q -n -W --keep-going -b html docs docs/_build/html
 	echo "make: docs/_build/html/index.html"
 
+.PHONY: pictures
+pictures: .venv/ready  ## draw the README's pictures again, out of a study, into docs/_static/
+	@.venv/bin/python bench/showcase.py
+
 .PHONY: wheel
 wheel: .venv/ready  ## build the wheel into dist/
 	@rm -f dist/*.whl
