@@ -8,11 +8,12 @@ from pathlib import Path
 from time import perf_counter
 
 from trocar.study.folder import check_folder
+from trocar.study.ledger import ledger
+from trocar.study.linear_range import Ranges
 from trocar.study.paper_preset import PaperStudy, run_paper_study
 from trocar.study.paper_results import write_paper_study
 from trocar.study.plan import Plan
-from trocar.study.protocol import Study, Watch, run_study
-from trocar.study.report.linear_range import Ranges
+from trocar.study.protocol import MODEL, REFERENCE, Study, Watch, run_study
 from trocar.study.results import write_study
 
 PAPER_PRESET = "paper-2014"
@@ -81,10 +82,23 @@ def _refuse_impossible(plan: Plan) -> None:
 
 
 def _ledger(study: Study | None) -> Sequence[Mapping[str, object]]:
-    """Return the reproduction ledger's entries as plain values."""
-    return ()
+    """Return the reproduction ledger's entries as plain values, with what this machine took for the paper's load."""
+    if study is None:
+        return [entry.as_dict() for entry in ledger()]
+    seconds = {
+        "wave_seconds": study.paper[MODEL].cpu_seconds,
+        "fea_seconds": study.paper[REFERENCE].cpu_seconds,
+    }
+    return [entry.as_dict() for entry in ledger(seconds)]
 
 
-def _ranges(study: Study) -> Ranges | None:
+def _ranges(study: Study) -> Ranges:
     """Return the verdicts on the linear range by case."""
-    return None
+    cases = {
+        "small": study.small,
+        "paper": study.paper,
+        "tilted": study.tilted,
+        "pair": study.pair,
+        "tap": study.tap,
+    }
+    return {name: comparison[MODEL].linear_range for name, comparison in cases.items()}

@@ -24,6 +24,7 @@ loads; they say nothing about the truth of the moduli or of the neo-Hookean law.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import cos, inf, isfinite, pi, sin, sqrt
 
@@ -77,6 +78,10 @@ class LinearRange:
     inside: bool
     limiting: str
     force_limit: float
+
+
+Ranges = Mapping[str, LinearRange]
+"""Verdicts by case: "small", "paper", "tilted", "pair", "tap"."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -14,9 +14,9 @@ from pathlib import Path
 from trocar.study.compare import Comparison
 from trocar.study.dataset import study_dataset
 from trocar.study.folder import fresh_folder
+from trocar.study.linear_range import LinearRange, Ranges
 from trocar.study.protocol import BLOCK, Study
 from trocar.study.report.figures.animation import animation
-from trocar.study.report.linear_range import Ranges, RangeVerdict
 from trocar.study.report.page import report_page
 from trocar.study.report.pictures import pictures
 from trocar.units import MILLIMETRE
@@ -153,7 +153,7 @@ def _cases(study: Study) -> list[tuple[str, Comparison]]:
     return [*((name, getattr(study, name)) for name in named), *others]
 
 
-def _verdict(verdict: RangeVerdict) -> object:
+def _verdict(verdict: LinearRange) -> object:
     return _plain({key: getattr(verdict, key) for key in _RANGE_KEYS})
 
 

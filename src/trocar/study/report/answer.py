@@ -8,10 +8,10 @@ import numpy as np
 
 from trocar.model import FloatArray, Support
 from trocar.study.compare import Comparison
+from trocar.study.linear_range import Ranges
 from trocar.study.protocol import MODEL, REFERENCE, Study
 from trocar.study.report.figures.style import label, three
 from trocar.study.report.figures.supports import WORDS
-from trocar.study.report.linear_range import Ranges
 from trocar.study.report.table import percent
 from trocar.study.statistics import t_test
 from trocar.tissues.catalogue import record

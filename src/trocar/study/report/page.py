@@ -11,11 +11,11 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from trocar import __version__
 from trocar.study.film import PRESS
+from trocar.study.linear_range import Ranges
 from trocar.study.protocol import MARGIN, REFERENCE, Study
 from trocar.study.report import protocol_tables, result_tables, statistic_tables
 from trocar.study.report.answer import answer, overlooked
 from trocar.study.report.figures.animation import Moving, animation_alt
-from trocar.study.report.linear_range import Ranges
 from trocar.study.report.picture import Picture
 from trocar.study.report.table import Table, percent
 from trocar.units import MILLISECOND

@@ -7,10 +7,10 @@ from math import isfinite
 
 from trocar.study.agreement import nrmse
 from trocar.study.compare import Comparison
+from trocar.study.linear_range import Ranges
 from trocar.study.protocol import JUDGED, REFERENCE, Study
 from trocar.study.report.figures.style import label, three
 from trocar.study.report.figures.supports import WORDS
-from trocar.study.report.linear_range import Ranges
 from trocar.study.report.table import Table, count, percent
 from trocar.units import KILOPASCAL, MILLIMETRE
 
