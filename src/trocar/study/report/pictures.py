@@ -23,7 +23,6 @@ from trocar.study.report.figures.supports import supports_alt, supports_figure
 from trocar.study.report.picture import Picture
 from trocar.units import MILLIMETRE
 
-
 FREE_BASE = (
     " The lower face is free and not computed: it is drawn parallel to the upper face of the lowest layer."
 )
