@@ -11,7 +11,7 @@ from trocar.study.compare import Comparison
 from trocar.study.protocol import MODEL, REFERENCE, Study
 from trocar.study.report.figures.style import label, three
 from trocar.study.report.figures.supports import WORDS
-from trocar.study.report.linear_range import Ranges, RangeVerdict
+from trocar.study.report.linear_range import Ranges
 from trocar.study.report.table import percent
 from trocar.study.statistics import t_test
 from trocar.tissues.catalogue import record
@@ -91,7 +91,7 @@ def answer(study: Study, ranges: Ranges | None) -> Answer:
     return Answer(
         paragraph=paragraph,
         limits=(
-            *_small_limit(plan.small, near),
+            *_small_limit(plan.small, ranges),
             verdict if inside is not False else f"{verdict} That is not a prediction.",
             *_limits(study),
         ),
@@ -151,8 +151,9 @@ def _limits(study: Study) -> tuple[str, ...]:
     return tuple(sentences)
 
 
-def _small_limit(force: float, verdict: RangeVerdict | None) -> tuple[str, ...]:
+def _small_limit(force: float, ranges: Ranges | None) -> tuple[str, ...]:
     """Return what bounds the small load itself, where it was assessed."""
+    verdict = None if ranges is None else ranges.get("small")
     if verdict is None:
         return ()
     decided = verdict.limiting.replace("_", " ")
