@@ -97,7 +97,7 @@ def test_json_alone_on_stdout(app, asked, tmp_path):
         (["--small-n", "9"], "at most the peak"),
         (["--tissue", "skn"], "did you mean skin?"),
         (["--tissue", "skin-paper-2014"], "take 'skin' instead"),
-        (["--support", "air"], "'air' is not one of"),
+        (["--support", "air"], "edges or edges+base or base, got 'air'"),
         (["--preset", "paper-2014", "--quick"], "leave out quick"),
         (["--preset", "paper-2015"], "'paper-2015' is not"),
     ],

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from trocar.model import Support
-
 if TYPE_CHECKING:
+    from trocar.model import Support
     from trocar.study.conduct import Conducted
     from trocar.study.paper_preset import PaperStudy
 
@@ -33,7 +32,9 @@ def register(app: typer.Typer) -> None:
 def study(
     out: Annotated[Path, typer.Option(help="Folder for the results: new, empty, or an earlier study's.")],
     tissue: Annotated[str | None, typer.Option(help="A tissue preset (trocar tissues list). [skin]")] = None,
-    support: Annotated[Support | None, typer.Option(help="How the block is held. [base]")] = None,
+    support: Annotated[
+        str | None, typer.Option(help="edges, edges+base or base: how the block is held. [base]")
+    ] = None,
     diameter_mm: Annotated[float | None, typer.Option(help="Diameter of the tool. [6]")] = None,
     peak_n: Annotated[float | None, typer.Option(help="The paper's load. [5]")] = None,
     small_n: Annotated[float | None, typer.Option(help="A load that linear theory can bear. [0.05]")] = None,
@@ -55,7 +56,7 @@ def study(
     command = join(["trocar", *sys.argv[1:]])
     given = {
         "tissue": tissue,
-        "support": support,
+        "support": None if support is None else _support(support),
         "diameter": None if diameter_mm is None else _number("--diameter-mm", diameter_mm) * MILLIMETRE,
         "peak": None if peak_n is None else _number("--peak-n", peak_n),
         "small": None if small_n is None else _number("--small-n", small_n),
@@ -88,6 +89,14 @@ def study(
         typer.echo(json.dumps(_summary(done), allow_nan=False))
     else:
         _print(done)
+
+
+def _support(name: str) -> Support:
+    from trocar.model import Support
+
+    if name not in tuple(Support):
+        raise typer.BadParameter(f"--support: expected {' or '.join(Support)}, got {name!r}")
+    return Support(name)
 
 
 def _number(option: str, value: float) -> float:

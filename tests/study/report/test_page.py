@@ -134,6 +134,13 @@ def test_the_papers_load_is_marked_as_no_prediction(study, page):
     assert "not assessed" in range_table(study, None).rows[0]
 
 
+def test_a_small_load_outside_the_range_is_marked_too(study, drawn, moving, page):
+    assert "The small load, inside the linear range: 0.05 N" in page
+    text = report_page(study, drawn, moving, ranges={"small": Verdict(inside=False)})
+    assert "Even 0.05 N lies outside the linear range" in text
+    assert text.count("Outside the linear range: not a prediction.") == 2
+
+
 def test_a_range_that_is_given_is_shown(study):
     rows = {
         row[0]: row for row in range_table(study, {"small": Verdict(), "paper": Verdict(inside=False)}).rows

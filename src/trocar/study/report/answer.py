@@ -36,13 +36,15 @@ class Answer:
         paragraph: the answer.
         limits: one sentence for each thing that bounds it.
         figures: the numbers to remember.
-        paper_inside: whether the paper's load lies inside the linear range; None where nobody assessed it.
-        paper_verdict: the same in a sentence.
+        small_inside: whether the small load lies inside the linear range; None where nobody assessed it.
+        paper_inside: the same of the paper's load; False too where it would push deeper than the block is thick.
+        paper_verdict: that in a sentence.
     """
 
     paragraph: str
     limits: tuple[str, ...]
     figures: tuple[Figure, ...]
+    small_inside: bool | None
     paper_inside: bool | None
     paper_verdict: str
 
@@ -85,15 +87,21 @@ def answer(study: Study, ranges: Ranges | None) -> Answer:
         f"The same case costs {label(MODEL)} {_times(ratio)} less processor time, set-up included."
     )
     verdict, inside = _paper_verdict(study, ranges)
+    near = None if ranges is None else ranges.get("small")
     return Answer(
         paragraph=paragraph,
-        limits=(verdict if inside is not False else f"{verdict} That is not a prediction.", *_limits(study)),
+        limits=(
+            *_small_limit(plan.small, ranges),
+            verdict if inside is not False else f"{verdict} That is not a prediction.",
+            *_limits(study),
+        ),
         figures=(
             Figure(value=percent(error), meaning=f"largest difference of {label(MODEL)} in any layer"),
             Figure(value=percent(by_membrane), meaning=f"the same of {label(MEMBRANE)}"),
             Figure(value=f"± {percent(bound)}", meaning="numerical uncertainty of the comparison"),
             Figure(value=f"{_round(ratio)}×", meaning=f"cheaper: a press; {_round(in_time)}× a tap in time"),
         ),
+        small_inside=None if near is None else near.inside,
         paper_inside=inside,
         paper_verdict=verdict,
     )
@@ -143,12 +151,26 @@ def _limits(study: Study) -> tuple[str, ...]:
     return tuple(sentences)
 
 
+def _small_limit(force: float, ranges: Ranges | None) -> tuple[str, ...]:
+    """Return what bounds the small load itself, where it was assessed."""
+    verdict = None if ranges is None else ranges.get("small")
+    if verdict is None:
+        return ()
+    decided = verdict.limiting.replace("_", " ")
+    end = f"{three(verdict.force_limit)} N, decided by the {decided}"
+    if verdict.inside:
+        return (f"All this holds for small loads: the linear range of this press ends at {end}.",)
+    return (
+        f"Even {force:g} N lies outside the linear range, which ends at {end}: nothing here is a prediction.",
+    )
+
+
 def _paper_verdict(study: Study, ranges: Ranges | None) -> tuple[str, bool | None]:
     plan = study.plan
     depth = float(study.paper[REFERENCE].block.max())
     thickness = study.paper.case.tissue.thickness
     said = (
-        f"Under the paper's {plan.peak:g} N all linear models say {three(depth / MILLIMETRE)} mm, in a block "
+        f"Under the paper's {plan.peak:g} N linear finite elements say {three(depth / MILLIMETRE)} mm, in a block "
         f"{three(thickness / MILLIMETRE)} mm thick"
     )
     verdict = None if ranges is None else ranges.get("paper")

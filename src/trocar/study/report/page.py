@@ -22,7 +22,7 @@ from trocar.units import MILLISECOND
 
 CONTENTS = (
     ("protocol", "What was done"),
-    ("small", "A load linear theory can bear"),
+    ("small", "The small load"),
     ("paper", "The paper's load"),
     ("range", "The linear range"),
     ("held", "How the block is held"),

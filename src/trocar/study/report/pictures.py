@@ -23,6 +23,10 @@ from trocar.study.report.figures.supports import supports_alt, supports_figure
 from trocar.study.report.picture import Picture
 from trocar.units import MILLIMETRE
 
+FREE_BASE = (
+    " The lower face is free and not computed: it is drawn parallel to the upper face of the lowest layer."
+)
+
 
 def pictures(study: Study) -> Mapping[str, Picture]:
     """Draw every figure, by name."""
@@ -36,7 +40,7 @@ def pictures(study: Study) -> Mapping[str, Picture]:
             name="exploded-block",
             alt=block_alt(small.case, study.surfaces["small"]),
             caption=f"The layers of the block under {small.case.peak_force:g} N, as {label(MODEL)} deforms them. The "
-            "hatching tells the layers apart.",
+            "hatching tells the layers apart." + ("" if small.case.support.base_held else FREE_BASE),
             figure=block_figure(small.case, study.surfaces["small"]),
         ),
         Picture(
@@ -57,8 +61,8 @@ def pictures(study: Study) -> Mapping[str, Picture]:
         Picture(
             name="supports",
             alt=supports_alt(study.supports),
-            caption="Sides that are clamped are not sine waves: where they matter, the wave models err "
-            "on the soft side.",
+            caption="Sides that are clamped are not sine waves: where they matter, the wave models hold the block "
+            "too loosely.",
             figure=supports_figure(study.supports),
         ),
         Picture(

@@ -44,8 +44,7 @@ def protocol_table(study: Study) -> Table:
             "load",
             "5 N at 0.05 N/s on and off, “over a time period of 100 seconds”: 5 N takes 100 s each way",
             (
-                f"{plan.peak:g} N, {ramp:g} s up and {ramp:g} s down; besides, {plan.small:g} N, which linear "
-                "theory can bear"
+                f"{plan.peak:g} N, {ramp:g} s up and {ramp:g} s down; besides, {plan.small:g} N at the same rate"
             ),
         ),
         (

@@ -66,7 +66,7 @@ def angle_and_pair_alt(tilted: Shown, pair: Shown) -> str:
     angle = tilted[0].tools[0].tilt / DEGREE
     return (
         f"Left, the top face under a tool leaning {angle:g} degrees along x: a dent {depths[0]} mm deep, longer along "
-        f"x than across. Right, under two tools: two dents {depths[1]} mm deep with a saddle between them."
+        f"x than across. Right, under two tools: two dents {depths[1]} mm deep."
     )
 
 

@@ -84,7 +84,7 @@ def block_alt(case: Case, surface: Surface) -> str:
     )
     return (
         f"Exploded view of the block cut through the tool. Under {case.peak_force:g} N the upper faces sink at the "
-        f"middle, the {parts}; the dent is widest and smoothest in the lowest layer."
+        f"middle, the {parts}."
     )
 
 
