@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, given, seed, settings
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
-from study.broken_cases import BROKEN, outcome
+from study.cases.broken_cases import BROKEN, outcome
 
 
 def main() -> int:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:  # the same names for type checkers and editors
     from trocar.model import Press as Press
     from trocar.model import Support as Support
     from trocar.reference.fea import FEASolid as FEASolid
-    from trocar.study.case import load_case as load_case
+    from trocar.study.cases.reading import load_case as load_case
     from trocar.study.compare import compare as compare
     from trocar.tissues.catalogue import tissue as tissue
     from trocar.tissues.layer import Layer as Layer
@@ -33,7 +33,7 @@ _HOME = {  # public name: the module it lives in
     "WaveMembrane": "trocar.waves.membrane",
     "WaveSolid": "trocar.waves.solid",
     "compare": "trocar.study.compare",
-    "load_case": "trocar.study.case",
+    "load_case": "trocar.study.cases.reading",
     "tissue": "trocar.tissues.catalogue",
 }
 

@@ -12,7 +12,7 @@ from PIL import Image
 from browser.chromium import find, look
 from small_study import LEDGER
 from trocar.study.report.page import CONTENTS
-from trocar.study.results import write_study
+from trocar.study.writing.results import write_study
 
 PROBE = """<script>addEventListener("load", () => {
   const found = {

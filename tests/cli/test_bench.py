@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from trocar.cli import application
-from trocar.study import equal_error, tick_cost
+from trocar.study.cost import equal_error, tick_cost
 
 ARGUMENTS = ["bench", "step", "--tissue", "uterus", "--diameter-mm", "16", "--tolerance", "0.01"]
 

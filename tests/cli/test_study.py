@@ -11,8 +11,8 @@ from small_study import shared_folder, shared_small_study
 from trocar.cli import main
 from trocar.cli import study as command
 from trocar.study import conduct as conducting
-from trocar.study.folder import is_study
 from trocar.study.plan import Plan
+from trocar.study.writing.folder import is_study
 
 
 @pytest.fixture

@@ -7,8 +7,8 @@ import pytest
 
 from trocar.model import Press, Support
 from trocar.reference.fea import FEASolid
-from trocar.study.agreement import nrmse
 from trocar.study.half_sine import half_sine
+from trocar.study.statistics.agreement import nrmse
 from trocar.study.sweep_of_agreement import PLACES, SIZE, agreements, largest, skin_like
 from trocar.tissues.catalogue import tissue
 from trocar.waves.membrane import WaveMembrane

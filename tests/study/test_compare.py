@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from trocar.errors import InputError
-from trocar.study.case import load_case
+from trocar.study.cases.reading import load_case
 from trocar.study.compare import compare
 from trocar.study.models import MOST_MODES, check_names, series_modes
 from trocar.waves.solid import WaveSolid

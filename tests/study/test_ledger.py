@@ -18,7 +18,7 @@ from trocar.study.ledger.t_tests import (
     matching_orders,
     triangle,
 )
-from trocar.study.statistics import t_test
+from trocar.study.statistics.published import t_test
 
 ENTRIES = {entry.id: entry for entry in ledger()}
 

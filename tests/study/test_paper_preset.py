@@ -8,10 +8,10 @@ import pytest
 import xarray as xr
 
 from small_study import LEDGER
-from trocar.study.folder import is_study
 from trocar.study.paper_preset import run_paper_study
-from trocar.study.paper_results import write_paper_study
 from trocar.study.report.paper_page import paper_table
+from trocar.study.writing.folder import is_study
+from trocar.study.writing.paper_results import write_paper_study
 
 
 @pytest.fixture(scope="module")

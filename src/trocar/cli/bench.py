@@ -12,8 +12,8 @@ from rich.console import Console
 from rich.table import Table
 
 if TYPE_CHECKING:
-    from trocar.study.equal_error import EqualError
-    from trocar.study.tick_cost import TickCost
+    from trocar.study.cost.equal_error import EqualError
+    from trocar.study.cost.tick_cost import TickCost
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON alone.")]
 TissueName = Annotated[str, typer.Option("--tissue", help="A preset; see trocar tissues list.")]
@@ -43,8 +43,8 @@ def step(
     as_json: AsJson = False,
 ) -> None:
     """Time one 1 ms tick of the live tissue with two tools, beside the machine's floor and other steps."""
-    from trocar.study.tick_cost import tick_cost
-    from trocar.study.warm_up import compile_steps
+    from trocar.study.cost.tick_cost import tick_cost
+    from trocar.study.cost.warm_up import compile_steps
     from trocar.tissues.catalogue import tissue as preset
 
     layers = preset(tissue)
@@ -71,8 +71,8 @@ def cost(
 ) -> None:
     """Compare waves and finite elements at equal measured error: a dynamic press, the study's static load."""
     from trocar.model import Press
-    from trocar.study.equal_error import dynamic_press, static_study
-    from trocar.study.warm_up import compile_steps
+    from trocar.study.cost.equal_error import dynamic_press, static_study
+    from trocar.study.cost.warm_up import compile_steps
     from trocar.tissues.catalogue import tissue as preset
 
     layers = preset(tissue)

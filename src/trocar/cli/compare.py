@@ -32,7 +32,7 @@ def compare(
     from rich.console import Console
     from rich.progress import Progress
 
-    from trocar.study.case import load_case
+    from trocar.study.cases.reading import load_case
     from trocar.study.compare import compare as run
     from trocar.study.models import check_names
 

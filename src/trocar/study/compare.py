@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from trocar.study.experiment import Case
+from trocar.study.cases.experiment import Case
 from trocar.study.history import History, run
 from trocar.study.models import MODELS, check_names
 from trocar.units import MILLIMETRE

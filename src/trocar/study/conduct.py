@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-from trocar.study.folder import check_folder
 from trocar.study.ledger import ledger
 from trocar.study.linear_range import Ranges
 from trocar.study.paper_preset import PaperStudy, run_paper_study
-from trocar.study.paper_results import write_paper_study
 from trocar.study.plan import Plan
 from trocar.study.protocol import MODEL, REFERENCE, Study, Watch, run_study
-from trocar.study.results import write_study
+from trocar.study.writing.folder import check_folder
+from trocar.study.writing.paper_results import write_paper_study
+from trocar.study.writing.results import write_study
 
 PAPER_PRESET = "paper-2014"
 STUDY_SHARE = 0.85  # of the whole work, the rest is drawing and writing

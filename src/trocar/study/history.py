@@ -10,8 +10,8 @@ from time import process_time
 import numpy as np
 
 from trocar.model import FloatArray, State
+from trocar.study.cases.experiment import Case
 from trocar.study.deflection import deflections, search_points
-from trocar.study.experiment import Case
 from trocar.study.linear_range import LinearRange, linear_range
 from trocar.study.models import AnyModel
 

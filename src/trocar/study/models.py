@@ -8,7 +8,7 @@ from typing import Any
 from trocar.errors import InputError
 from trocar.model import Profile, TissueModel
 from trocar.reference.fea import FEASolid
-from trocar.study.experiment import Case
+from trocar.study.cases.experiment import Case
 from trocar.waves.cutoff import modes_for
 from trocar.waves.fit import RADII
 from trocar.waves.membrane import WaveMembrane

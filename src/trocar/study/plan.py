@@ -7,8 +7,8 @@ from math import radians
 
 from trocar.errors import InputError
 from trocar.model import Support
-from trocar.study.experiment import Case, case_from_tissue
-from trocar.study.tool import Tool
+from trocar.study.cases.experiment import Case, case_from_tissue
+from trocar.study.cases.tool import Tool
 from trocar.tissues.catalogue import tissue as preset
 from trocar.units import MILLIMETRE
 

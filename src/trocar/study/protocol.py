@@ -13,16 +13,16 @@ import numpy as np
 from trocar.model import Support
 from trocar.reference.block import MeshSize
 from trocar.reference.fea import FEASolid
+from trocar.study.cases.experiment import Case
 from trocar.study.compare import Comparison, compare
-from trocar.study.curves import CurveComparison, compare_curves
+from trocar.study.cost.warm_up import compile_models
 from trocar.study.deflection import deflections, search_points
-from trocar.study.experiment import Case
 from trocar.study.film import Film, press_and_release
 from trocar.study.models import AnyModel
 from trocar.study.plan import Plan
+from trocar.study.statistics.curves import CurveComparison, compare_curves
+from trocar.study.statistics.uncertainty import Refinement, Validation, refinement, validation
 from trocar.study.surface import Surface, surface
-from trocar.study.uncertainty import Refinement, Validation, refinement, validation
-from trocar.study.warm_up import compile_models
 from trocar.waves.solid import WaveSolid
 
 REFERENCE = "fea"

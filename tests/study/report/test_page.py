@@ -13,7 +13,7 @@ from trocar.study.report.page import CONTENTS, report_page
 from trocar.study.report.result_tables import cases, range_table
 from trocar.study.report.statistic_tables import ledger_rows
 from trocar.study.report.table import Table, count, percent
-from trocar.study.statistics import t_test
+from trocar.study.statistics.published import t_test
 
 VOID = {"meta", "link", "img", "br", "wbr", "source"}
 

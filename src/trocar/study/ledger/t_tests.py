@@ -17,7 +17,7 @@ from trocar.study.ledger.entry import (
     recomputed_entry,
     unspecified_entry,
 )
-from trocar.study.statistics import p_two_tailed, t_critical, t_test
+from trocar.study.statistics.published import p_two_tailed, t_critical, t_test
 
 MOST_DF = 2000  # far beyond where the critical value leaves the printed digits
 PERIODS = (0.1, 0.2, 0.25, 0.5, 1.0, 1.25, 2.0, 2.5, 4.0, 5.0, 10.0)  # [s], round sampling periods

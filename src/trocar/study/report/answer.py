@@ -13,7 +13,7 @@ from trocar.study.protocol import MODEL, REFERENCE, Study
 from trocar.study.report.figures.style import label, three
 from trocar.study.report.figures.supports import WORDS
 from trocar.study.report.table import percent
-from trocar.study.statistics import t_test
+from trocar.study.statistics.published import t_test
 from trocar.tissues.catalogue import record
 from trocar.units import MILLIMETRE, MILLISECOND
 

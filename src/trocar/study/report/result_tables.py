@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import isfinite
 
-from trocar.study.agreement import nrmse
 from trocar.study.compare import Comparison
 from trocar.study.linear_range import Ranges
 from trocar.study.protocol import JUDGED, REFERENCE, Study
 from trocar.study.report.figures.style import label, three
 from trocar.study.report.figures.supports import WORDS
 from trocar.study.report.table import Table, count, percent
+from trocar.study.statistics.agreement import nrmse
 from trocar.units import KILOPASCAL, MILLIMETRE
 
 NOT_ASSESSED = "not assessed"

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import isfinite
 
-from trocar.study.curves import CurveComparison
 from trocar.study.protocol import BLOCK, Study
 from trocar.study.report.figures.style import label, power_of_ten, three, with_uncertainty
 from trocar.study.report.table import Table, percent
+from trocar.study.statistics.curves import CurveComparison
 from trocar.units import MILLIMETRE
 
 MICROMETRE = 1e-6  # [m]

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 
-from trocar.study.agreement import limits_of_agreement
 from trocar.study.compare import Comparison
 from trocar.study.protocol import Numerics
 from trocar.study.report.figures.style import (
@@ -21,6 +20,7 @@ from trocar.study.report.figures.style import (
     three,
     with_uncertainty,
 )
+from trocar.study.statistics.agreement import limits_of_agreement
 from trocar.units import MILLIMETRE
 
 MICROMETRE = 1e-6  # [m]

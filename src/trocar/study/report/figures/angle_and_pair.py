@@ -10,7 +10,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from trocar.model import FloatArray
-from trocar.study.experiment import Case
+from trocar.study.cases.experiment import Case
 from trocar.study.report.figures.axonometry import View, colours, draw_rim, draw_surface, fit, quads
 from trocar.study.report.figures.block import enlargement
 from trocar.study.report.figures.style import DEPTHS, GREY, VERMILION, sheet, styled, three

@@ -12,7 +12,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from trocar.model import FloatArray
-from trocar.study.experiment import Case
+from trocar.study.cases.experiment import Case
 from trocar.study.report.figures.axonometry import View, colours, draw_polygon, draw_surface, fit, quads
 from trocar.study.report.figures.style import BLACK, DEPTHS, GREY, LAYER_COLOURS, sheet, styled, three
 from trocar.study.surface import Surface

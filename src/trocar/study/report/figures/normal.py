@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from trocar.study.compare import Comparison
 from trocar.study.report.figures.style import GREY, MODEL_LINES, label, sheet, styled, three
-from trocar.study.statistics import normal_study
+from trocar.study.statistics.published import normal_study
 from trocar.units import MILLIMETRE
 
 

@@ -1,0 +1,1 @@
+"""What steps and studies cost on this machine."""

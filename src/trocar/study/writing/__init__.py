@@ -1,0 +1,1 @@
+"""A study's folder: files, written whole or not at all."""
