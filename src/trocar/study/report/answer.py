@@ -73,7 +73,7 @@ def answer(study: Study, ranges: Ranges | None) -> Answer:
     paragraph = (
         f"On {title[0].lower() + title[1:]}, {_support(plan.support)}, pressed with {plan.small:g} N by a "
         f"{plan.diameter / MILLIMETRE:g} mm tool, {label(MODEL)} follows three-dimensional finite elements within "
-        f"{percent(error)} in every layer, at every moment of press and release ({percent(spread)} as "
+        f"{percent(error)} of the peak in every layer, at every moment of press and release ({percent(spread)} as "
         "NRMSE), where the "
         f"block deflects {three(peak / MILLIMETRE)} mm. "
         + (
@@ -146,7 +146,7 @@ def _limits(study: Study) -> tuple[str, ...]:
     sentences.append(
         "It is model against model: finite elements of the same linear tissue. No measurement of living "
         "tissue is part of "
-        "it, and the literature's moduli spread far more than the models differ."
+        "it, and moduli of living tissue are known far less closely than these figures."
     )
     return tuple(sentences)
 
