@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
 from trocar.study.cases.experiment import Case
 from trocar.study.history import History, run
-from trocar.study.models import MODELS, check_names
+from trocar.study.models import MODELS, AnyModel, check_names
 from trocar.units import MILLIMETRE
 
 Watch = Callable[[str, float], None]
@@ -50,20 +50,25 @@ class Comparison:
 
 
 def compare(
-    case: Case, models: Sequence[str] = ("wave-solid", "fea"), *, watch: Watch = lambda _model, _share: None
+    case: Case,
+    models: Sequence[str] = ("wave-solid", "fea"),
+    *,
+    builders: Mapping[str, Callable[[Case], AnyModel]] = MODELS,
+    watch: Watch = lambda _model, _share: None,
 ) -> Comparison:
     """Run a case through several models.
 
     Args:
         case: the experiment.
         models: names, of those in `trocar.study.models.MODELS`.
+        builders: make each model for the case, by name.
         watch: told the model and the share of it done, 0 to 1, as the work goes on.
 
     Raises:
         InputError: a name is unknown, or that model is not built yet.
         SolverError: a model could not be solved.
     """
-    histories = tuple(run(case, name, MODELS[name], partial(watch, name)) for name in check_names(models))
+    histories = tuple(run(case, name, builders[name], partial(watch, name)) for name in check_names(models))
     return Comparison(case=case, histories=histories)
 
 

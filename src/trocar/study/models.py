@@ -7,6 +7,7 @@ from typing import Any
 
 from trocar.errors import InputError
 from trocar.model import Profile, TissueModel
+from trocar.reference.block import MeshSize
 from trocar.reference.fea import FEASolid
 from trocar.study.cases.experiment import Case
 from trocar.waves.cutoff import modes_for
@@ -64,11 +65,19 @@ def _fea(case: Case) -> AnyModel:
     return FEASolid(case.tissue, size=case.size, support=case.support, around=case.load_at(0.0))
 
 
+def _coarse_fea(case: Case) -> AnyModel:
+    return FEASolid(
+        case.tissue, size=case.size, support=case.support, around=case.load_at(0.0), mesh=COARSE_MESH
+    )
+
+
+COARSE_MESH = MeshSize(per_radius=2.0, growth=0.6, top=0.4, deepening=0.7, side=0.4)
 MODELS: dict[str, Callable[[Case], AnyModel]] = {
     "wave-membrane": _wave_membrane,
     "wave-solid": _wave_solid,
     "fea": _fea,
 }
+QUICK_MODELS = {**MODELS, "fea": _coarse_fea}  # a fifth of the unknowns, within 1.5 % instead of 0.2 %
 
 
 def check_names(names: Sequence[str]) -> tuple[str, ...]:

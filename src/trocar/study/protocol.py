@@ -18,7 +18,7 @@ from trocar.study.compare import Comparison, compare
 from trocar.study.cost.warm_up import compile_models
 from trocar.study.deflection import deflections, search_points
 from trocar.study.film import Film, press_and_release
-from trocar.study.models import AnyModel
+from trocar.study.models import COARSE_MESH, MODELS, QUICK_MODELS, AnyModel
 from trocar.study.plan import Plan
 from trocar.study.statistics.curves import CurveComparison, compare_curves
 from trocar.study.statistics.uncertainty import Refinement, Validation, refinement, validation
@@ -103,22 +103,25 @@ def run_study(plan: Plan, watch: Watch = lambda _what, _share: None) -> Study:
     began = perf_counter()
     watch("compiling", 0.0)
     compiled = compile_models()
+    builders = QUICK_MODELS if plan.quick else MODELS
     watch("press in the middle", 0.02)
-    small = compare(plan.central(plan.small), (*JUDGED, REFERENCE))
-    paper = compare(plan.central(plan.peak), (*JUDGED, REFERENCE))
+    small = compare(plan.central(plan.small), (*JUDGED, REFERENCE), builders=builders)
+    paper = compare(plan.central(plan.peak), (*JUDGED, REFERENCE), builders=builders)
     supports = {}
     for i, support in enumerate(Support):
         watch(f"support {support.value}", 0.1 + 0.05 * i)
         same = support is plan.support
         supports[support] = (
-            small if same else compare(plan.central(plan.small, support), (*JUDGED, REFERENCE))
+            small
+            if same
+            else compare(plan.central(plan.small, support), (*JUDGED, REFERENCE), builders=builders)
         )
     watch("tool at an angle", 0.25)
-    tilted = compare(plan.tilted(), (MODEL, REFERENCE))
+    tilted = compare(plan.tilted(), (MODEL, REFERENCE), builders=builders)
     watch("two tools", 0.35)
-    pair = compare(plan.pair(), (MODEL, REFERENCE))
+    pair = compare(plan.pair(), (MODEL, REFERENCE), builders=builders)
     watch("a tap, in time", 0.45)
-    tap = compare(plan.tap(), (*JUDGED, REFERENCE))
+    tap = compare(plan.tap(), (*JUDGED, REFERENCE), builders=builders)
     watch("refining meshes and modes", 0.65)
     numerics = _numerics(plan)
     watch("stresses", 0.85)
@@ -173,7 +176,7 @@ def _numerics(plan: Plan) -> dict[str, Numerics]:
     fine = 1.0 if plan.quick else 0.75
 
     def reference(size: float) -> AnyModel:
-        base = MeshSize()
+        base = COARSE_MESH if plan.quick else MeshSize()
         scale = size * fine
         mesh = replace(
             base,
@@ -181,6 +184,7 @@ def _numerics(plan: Plan) -> dict[str, Numerics]:
             growth=base.growth * scale,
             top=base.top * scale,
             deepening=base.deepening * scale,
+            side=base.side * scale,
         )
         return FEASolid(case.tissue, size=case.size, support=case.support, around=load, mesh=mesh)
 

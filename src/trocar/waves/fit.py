@@ -1,9 +1,10 @@
 """Membranes fitted to layers: which coefficients make coupled sheets answer a tool as the solid does.
 
-Three linear-response moments of the solid at the top face are matched, all under a central press:
+Three linear-response moments of the solid at the top face are matched:
 
-    static      the deflection of every face on a line from the centre outwards, for tools of several radii;
-                the tensions, bending stiffnesses and couplings come from nonlinear least squares in their logarithms
+    static      the deflection of every face under tools of several radii, in the middle and in a corner of the
+                block, and on a line from the middle outwards; tensions, bending stiffnesses and couplings come from
+                nonlinear least squares in their logarithms
     damping     p^T K^-1 C K^-1 p, the first moment in time; linear in the retardation times of sheets and beds
     inertia     p^T K^-1 M K^-1 p, the second; linear in the areal densities
 
@@ -31,8 +32,9 @@ from trocar.waves.thin_layer import ThinLayers, Wavenumbers, vertical_and_along
 
 RADII = (2.5e-3, 3e-3, 4e-3, 6e-3)  # [m] tools of 5, 6, 8 and 12 mm
 _REACH = 8.25  # highest wavenumber times the smallest radius: a flat tool's peak within 0.1 %
-_MOST_MODES = 127  # a side, whatever the tool
-_STATIONS = (0.0, 0.5, 1.0, 1.5, 2.5)  # where the profile is matched, in tool radii from the centre
+_MOST_MODES = 95  # a side, whatever the tool
+_SHARES = (0.5, 0.25)  # of both sides, where the tools stand: in the middle and in a corner
+_STATIONS = (0.5, 1.0, 1.5, 2.5)  # where the profile beside a central tool is matched, in tool radii
 _LOG_RANGE = 14.0  # coefficients stay within e^14 of their derived values
 _LOG_STIFFER = (
     3.0  # a bed stays below e^3 of its derived stiffness, which is already that of no give sideways
@@ -46,8 +48,8 @@ class Fit:
 
     Attributes:
         stack: the coefficients.
-        error: largest relative difference from the solid, of any face's deflection under the middle of a central
-            tool of any of the radii [1]. Some tissues no stack of sheets can imitate: look at it.
+        error: largest relative difference from the solid, of any face's deflection under a tool of any of the radii,
+            in the middle of the block or in a corner [1]. Some tissues no stack of sheets can imitate: look at it.
     """
 
     stack: Stack
@@ -62,7 +64,8 @@ class _Target:
     compliance: FloatArray  # faces under a unit pressure amplitude [m/Pa], (J, faces)
     damping: FloatArray  # first moment at the top face, (J,)
     inertia: FloatArray  # second moment at the top face, (J,)
-    profile: FloatArray  # (radii * stations, J)
+    under: FloatArray  # under the tools, (radii * shares, J)
+    profile: FloatArray  # the same, and beside the central ones, (rows, J)
 
 
 def fitted_stack(
@@ -89,9 +92,8 @@ def fitted_stack(
 
 
 def _error(stack: Stack, target: _Target) -> float:
-    under = target.profile[:: len(_STATIONS)]
-    wanted = under @ target.compliance
-    reached = under @ _response(_coefficients(stack), len(stack.sheets), target.at)
+    wanted = target.under @ target.compliance
+    reached = target.under @ _response(_coefficients(stack), len(stack.sheets), target.at)
     return float(np.abs(reached / wanted - 1).max())
 
 
@@ -101,26 +103,31 @@ def _evenly_prestressed(layer: Layer) -> Layer:
 
 
 def _target(tissue: Tissue, size: tuple[float, float], support: Support, radii: tuple[float, ...]) -> _Target:
-    highest = [min(ceil(_REACH * side / min(radii) / pi), _MOST_MODES) for side in size]
-    series = Series(size, (highest[0], highest[1]))
-    odd_m, odd_n = (np.arange(1, most + 1, 2) for most in highest)
-    kx, ky = (grid.ravel() for grid in np.meshgrid(series.kx[odd_m], series.ky[odd_n], indexing="ij"))
+    a, b = size
+    series = Series(size, _highest_modes(size, radii))
+    kx, ky = (grid.ravel() for grid in np.meshgrid(series.kx[1:], series.ky[1:], indexing="ij"))
     k = np.hypot(kx, ky)
-    _, first, places = np.unique(np.round(k * size[0], 9), return_index=True, return_inverse=True)
+    _, first, places = np.unique(np.round(k * a, 9), return_index=True, return_inverse=True)
     at = Wavenumbers(k[first], kx[first] ** 2, ky[first] ** 2)
 
     layers = vertical_and_along(tissue, base_held=support.base_held)
     compliance, damping, inertia = _moments(layers, at)
-    a, b = size
-    rows = []
-    for radius in radii:
-        # At the centre every odd sine is +-1 and its square 1; the profile runs along x.
-        weight = 4 / (a * b) * transform(Profile.FLAT, k * radius)
-        rows += [
-            np.bincount(places, weight * np.cos(kx * radius * station), minlength=len(first))
-            for station in _STATIONS
-        ]
-    return _Target(at, compliance, damping, inertia, np.array(rows))
+
+    def deflection(radius: float, share: float, station: float) -> FloatArray:
+        """Return what each wavenumber adds at a station beside a tool at that share of both sides."""
+        x, y = share * a, share * b
+        shape = np.sin(kx * x) * np.sin(ky * y) * np.sin(kx * (x + radius * station)) * np.sin(ky * y)
+        weight = 4 / (a * b) * transform(Profile.FLAT, k * radius) * shape
+        return np.asarray(np.bincount(places, weight, minlength=len(first)), dtype=np.float64)
+
+    under = [deflection(radius, share, 0.0) for radius in radii for share in _SHARES]
+    beside = [deflection(radius, 0.5, station) for radius in radii for station in _STATIONS]
+    return _Target(at, compliance, damping, inertia, np.array(under), np.array(under + beside))
+
+
+def _highest_modes(size: tuple[float, float], radii: tuple[float, ...]) -> tuple[int, int]:
+    m, n = (min(ceil(_REACH * side / min(radii) / pi), _MOST_MODES) for side in size)
+    return m, n
 
 
 def _moments(layers: ThinLayers, at: Wavenumbers) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -203,7 +210,7 @@ def _fit_rates(tissue: Tissue, stack: Stack, target: _Target) -> Stack:
     own = (values[layers : 2 * layers] * k2**2 + values[:layers] * k2) * response**2
     gaps = response - np.concatenate([response[:, 1:], np.zeros((len(response), 1))], axis=1)
     beds = values[2 * layers :] * gaps**2
-    weight = np.abs(target.profile[:: len(_STATIONS)]).sum(axis=0)
+    weight = np.abs(target.under).sum(axis=0)
     densities, _ = nnls(weight[:, None] * response**2, weight * target.inertia)
     times = _retardation_times(tissue, weight[:, None] * np.hstack([own, beds]), weight * target.damping)
     least = 1e-3 * densities.max()  # a sheet must weigh something to move
