@@ -59,7 +59,7 @@ def test_the_measured_cut_off_is_tight(radius, tolerance):
     m, n = np.meshgrid(np.arange(1, 57), np.arange(1, 57), indexing="ij")
     wave = np.pi / SIZE[0] * np.hypot(m, n)
     share = compliance[..., 0] * np.exp(-((radius * wave) ** 2) / 8)
-    left_out = share[wave > k].sum() / share.sum()
+    left_out = share[wave > k * (1 + 1e-9)].sum() / share.sum()  # a ring of equal k, but for rounding, stays
     # The next wave would be too much: a ring of equal k holds less than a tenth of the tail.
     assert 0.5 * tolerance < left_out <= tolerance
 

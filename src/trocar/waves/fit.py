@@ -9,8 +9,9 @@ Three linear-response moments of the solid at the top face are matched:
     inertia     p^T K^-1 M K^-1 p, the second; linear in the areal densities
 
 The last two are bounded least squares, weighted by what each wavenumber adds to the deflection under the tool: no
-density is negative, and no retardation time is negative or above a few times the slowest layer's. Without the upper
-bound a bed that hardly stretches can be given any time, up to one at which the equations of motion lose their sign.
+density is negative, and retardation times keep to a few times those of the layers. Without the upper
+bound a bed that hardly stretches can be given any time, up to one at which the equations of motion lose their sign;
+without the lower one a bed that bears the block may be given none, and the block rings for seconds.
 A fit holds for the block it was made for: its size, its support, and tools from 5 to 12 mm across.
 """
 
@@ -39,7 +40,7 @@ _LOG_RANGE = 14.0  # coefficients stay within e^14 of their derived values
 _LOG_STIFFER = (
     3.0  # a bed stays below e^3 of its derived stiffness, which is already that of no give sideways
 )
-_SLOWER = 3.0  # times the slowest layer's retardation time: the most a sheet or bed is given
+_SLOWER = 3.0  # times the slowest layer's retardation time at most, and the fastest's over this at least
 
 
 @dataclass(frozen=True)
@@ -226,9 +227,11 @@ def _fit_rates(tissue: Tissue, stack: Stack, target: _Target) -> Stack:
 
 
 def _retardation_times(tissue: Tissue, columns: FloatArray, wanted: FloatArray) -> FloatArray:
-    slowest = max(layer.retardation_time for layer in tissue.layers)
+    times = [layer.retardation_time for layer in tissue.layers]
+    slowest, fastest = max(times), min(times)
     if slowest == 0:
         return np.zeros(columns.shape[1])
-    found = lsq_linear(columns * slowest, wanted, bounds=(0, _SLOWER), method="bvls", tol=1e-12)
-    times: FloatArray = found.x * slowest
-    return times
+    bounds = (fastest / slowest / _SLOWER, _SLOWER)
+    found = lsq_linear(columns * slowest, wanted, bounds=bounds, method="bvls", tol=1e-12)
+    fitted: FloatArray = found.x * slowest
+    return fitted
