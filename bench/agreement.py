@@ -3,6 +3,7 @@
 python bench/agreement.py base            all nine places (three and their mirror images), about half an hour
 python bench/agreement.py edges+base --central
 python bench/agreement.py edges --central
+python bench/agreement.py edges+base --central --fat-mm 14 --dermis-kpa 35 --dermis-kpa 500
 """
 
 import argparse
@@ -11,7 +12,7 @@ import sys
 import numpy as np
 
 from trocar.model import Support
-from trocar.study.sweep_of_agreement import PLACES, agreements
+from trocar.study.sweep_of_agreement import DERMIS, FAT, PLACES, agreements
 
 
 def main() -> int:
@@ -21,12 +22,17 @@ def main() -> int:
     )
     parser.add_argument("support", choices=[kind.value for kind in Support])
     parser.add_argument("--central", action="store_true", help="only a tool in the middle")
+    parser.add_argument("--fat-mm", type=float, action="append", help="thickness; may be repeated")
+    parser.add_argument("--dermis-kpa", type=float, action="append", help="modulus; may be repeated")
     choice = parser.parse_args()
+    fats = tuple(1e-3 * thickness for thickness in choice.fat_mm or ()) or FAT
+    dermises = tuple(1e3 * modulus for modulus in choice.dermis_kpa or ()) or DERMIS
+    places = PLACES[:1] if choice.central else PLACES
     print(
         "fat mm | E epidermis, dermis, fat kPa | place | d mm | FEA mm | WaveSolid - FEA, % | WaveMembrane - FEA, %"
     )
     rows = []
-    for row in agreements(Support(choice.support), places=PLACES[:1] if choice.central else PLACES):
+    for row in agreements(Support(choice.support), places=places, fats=fats, dermises=dermises):
         rows.append(row)
         print(
             f"{1e3 * row.fat_thickness:4.0f} | {row.epidermis / 1e3:5.0f} {row.dermis / 1e3:5.0f} {row.fat / 1e3:3.0f}"

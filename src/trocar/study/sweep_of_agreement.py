@@ -74,6 +74,7 @@ def agreements(
     places: tuple[tuple[float, float], ...] = PLACES,
     diameters: tuple[float, ...] = DIAMETERS,
     fats: tuple[float, ...] = FAT,
+    dermises: tuple[float, ...] = DERMIS,
 ) -> Iterator[Agreement]:
     """Run the sweep, one press after the other.
 
@@ -82,8 +83,9 @@ def agreements(
         places: of the tool, in shares of the sides.
         diameters: of the tool [m].
         fats: thicknesses of the fat [m].
+        dermises: Young's moduli of the dermis [Pa].
     """
-    for thickness, epidermis, dermis, fat in product(fats, EPIDERMIS, DERMIS, SOFT):
+    for thickness, epidermis, dermis, fat in product(fats, EPIDERMIS, dermises, SOFT):
         tissue = skin_like(epidermis, dermis, fat, thickness)
         solid = WaveSolid(tissue, size=SIZE, support=support)
         membrane = WaveMembrane.fitted(tissue, size=SIZE, support=support, modes=(96, 96))
