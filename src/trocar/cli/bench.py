@@ -94,7 +94,10 @@ def cost(
             f"finite elements solved by {rows[0].fea.solver}; the finest lie {100 * rows[0].converged:.2g} % "
             "from the converged waves\n"
         )
-    console.print(f"compiled code ready after {compiled:.2f} s")
+    console.print(
+        "CPU time. setting: modes a side of the waves (/ moving ones / Ritz vectors), elements a radius / growth of finite "
+        f"elements, and the step.\ncompiled code ready after {compiled:.2f} s"
+    )
 
 
 def _print_json(content: object) -> None:
@@ -137,21 +140,21 @@ def _tick_table(costs: list[TickCost]) -> Table:
 
 def _cost_table(results: tuple[EqualError, ...], *, dynamic: bool) -> Table:
     table = _table(results[0].case)
-    spent = "CPU us a ms" if dynamic else "CPU ms in all"
+    spent = "us per ms" if dynamic else "ms in all"
     for name in ("allowed", "model", "setting", "error", "unknowns", "set-up", spent, "ratio"):
         left = name in ("model", "setting")
-        table.add_column(name, justify="left" if left else "right", no_wrap=name != "setting")
+        table.add_column(name, justify="left" if left else "right", no_wrap=True)
     for result in results:
         for trial in (result.wave, result.fea):
             first = trial is result.wave
-            step = f", steps of {trial.dt_ms:g} ms" if dynamic else ""
+            step = f", {trial.dt_ms:g} ms" if dynamic else ""
             table.add_row(
                 f"{100 * result.tolerance:g} %" if first else "",
-                trial.model,
+                "waves" if first else "fea",
                 trial.setting + step,
                 f"{100 * trial.error:.2g} %",
                 str(trial.dofs),
-                f"{trial.set_up_s:.3f} s" if dynamic else "within",
+                f"{1e3 * trial.set_up_s:.0f} ms" if dynamic else "within",
                 f"{trial.step_us / trial.dt_ms:.2f}" if dynamic else f"{1e-3 * trial.step_us:.2f}",
                 "" if first else f"{result.ratio:.0f}",
             )

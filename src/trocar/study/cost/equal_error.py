@@ -61,7 +61,8 @@ class Trial:
 
     Attributes:
         model: "wave-solid" or "fea".
-        setting: how fine, in words.
+        setting: how fine: of waves the modes a side (in motion also how many move, and how many Ritz vectors each),
+            of finite elements the elements a radius and their growth.
         error: largest, over the peak of the converged answer [1].
         dofs: what moves or is solved for: oscillators, or unknowns of the quarter.
         set_up_s: CPU time before the first step [s], compilation left out; of the whole job for a static
@@ -223,7 +224,7 @@ def static_study(
             solver=model.solver_name if isinstance(model, FEASolid) else "",
         )
 
-    tried = [trial(f"{modes} modes", partial(waves, modes)) for modes in STATIC_LADDER]
+    tried = [trial(f"{modes}", partial(waves, modes)) for modes in STATIC_LADDER]
     ladder = FEA_LADDER[:_QUICK_LADDER] if quick else FEA_LADDER
     tried += [trial(_mesh_in_words(mesh), partial(elements, mesh)) for mesh in ladder]
     load = f"{tool.force:g} N at {_RATE:g} N/s up and down, {len(shares)} samples"
@@ -250,7 +251,7 @@ def _wave_trial(
     step = cpu_time(lambda: held.press(batch), executions=len(batch))
     return Trial(
         model="wave-solid",
-        setting=f"{modes} modes, {moving} move, order {order}",
+        setting=f"{modes}/{moving}/{order}",
         error=error(curve, dt),
         dofs=held.blocks,
         set_up_s=set_up,
@@ -298,7 +299,7 @@ def _mesh(setting: Setting) -> MeshSize:
 
 def _mesh_in_words(setting: Setting) -> str:
     per_radius, growth, _, _ = setting
-    return f"{per_radius:g} a radius, growth {growth:g}"
+    return f"{per_radius:g}/{growth:g}"
 
 
 def settled(tried: Sequence[Trial], tolerance: float) -> list[Trial]:
