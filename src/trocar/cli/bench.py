@@ -95,8 +95,8 @@ def cost(
             "from the converged waves\n"
         )
     console.print(
-        "CPU time. setting: modes a side of the waves (/ moving ones / Ritz vectors), elements a radius / growth of finite "
-        f"elements, and the step.\ncompiled code ready after {compiled:.2f} s"
+        "CPU time. setting: modes a side of the waves (/ moving ones / Ritz vectors), elements a radius / growth of "
+        f"finite elements, and the step.\ncompiled code ready after {compiled:.2f} s"
     )
 
 

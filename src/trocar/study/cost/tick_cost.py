@@ -30,7 +30,9 @@ class TickCost:
 
     Attributes:
         diameter_mm: of both tools' footprints.
-        layers, modes, oscillators: that move.
+        layers: of the tissue.
+        modes: that move, of each layer.
+        oscillators: modes times layers.
         error: largest difference from a model with all modes that matter, over the largest displacement [1].
         tick_us, tick_least_us: a tick inside a compiled loop, median and least of the repeats.
         call_us, call_p99_us: a tick called from Python, wall time, median and 99th percentile.
