@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from trocar.errors import InputError
+from trocar.model import Support
 from trocar.study.cases.reading import load_case
 from trocar.study.compare import compare
-from trocar.study.models import MOST_MODES, check_names, series_modes
+from trocar.study.models import MOST_MODES, QUICK_MODELS, check_names, series_modes
+from trocar.study.stated_range import departures
 from trocar.waves.solid import WaveSolid
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
@@ -118,3 +120,35 @@ def test_membranes_that_could_not_be_fitted_are_out_of_range():
     assert history.fit_error > 0.05
     assert not history.in_range
     assert compare(PRESS, ("wave-membrane",))["wave-membrane"].fit_error < 0.05
+
+
+def test_waves_are_not_stated_for_blocks_whose_clamped_sides_matter():
+    (tool,) = PRESS.tools
+    edges = replace(PRESS, support=Support.EDGES, tools=(replace(tool, peak=1e-3),))
+    near = replace(
+        PRESS, support=Support.EDGES_AND_BASE, tools=(replace(tool, peak=1e-3, position=(0.01, 0.03)),)
+    )
+    for case, word in ((edges, "clamped sides"), (near, "nearer to a clamped side")):
+        history = compare(case, ("wave-solid",))["wave-solid"]
+        assert history.linear_range.inside
+        assert not history.in_range
+        assert word in history.departures[0]
+    assert compare(edges, ("fea",))["fea"].departures == ()
+
+
+def test_membranes_are_not_stated_in_motion_or_with_too_few_modes():
+    assert departures(TAP, "wave-membrane", fit_error=0.0, modes=(96, 96)) == (
+        "membranes are fitted to slow loads",
+    )
+    assert departures(PRESS, "wave-membrane", fit_error=0.0, modes=(96, 96)) == ()
+    (reason,) = departures(PRESS, "wave-membrane", fit_error=0.0, modes=(8, 8))
+    assert "modes a side" in reason
+    assert departures(PRESS, "wave-solid", fit_error=0.0, modes=(8, 8)) == ()
+
+
+def test_the_quick_models_are_coarser():
+    quick = compare(PRESS, ("fea",), builders=QUICK_MODELS)["fea"]
+    usual = compare(PRESS, ("fea",))["fea"]
+    assert quick.dofs < usual.dofs / 2
+    for layer, depths in usual.deflection.items():
+        assert quick.deflection[layer] == pytest.approx(depths, rel=0.015, abs=1e-12)

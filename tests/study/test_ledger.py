@@ -156,17 +156,14 @@ def test_published_test_is_blind_to_large_errors():
     assert amplitude_gap(0.912, 81) == pytest.approx(0.082, abs=0.0005)
 
 
-@pytest.mark.parametrize(
-    ("fea", "verdict"), [(400.0, "reproduced"), (40.0, "reproduced"), (39.0, "inconsistent")]
-)
-def test_cost_is_judged_once_measured(fea, verdict):
-    entry = next(
-        entry for entry in ledger({"wave_seconds": 1.0, "fea_seconds": fea}) if entry.id == "cost_ratio"
-    )
-    assert entry.recomputed == fea
-    assert entry.verdict == verdict
-    alone = next(entry for entry in ledger({"fea_seconds": fea}) if entry.id == "cost_ratio")
-    assert alone.verdict is Verdict.NOT_SPECIFIED
+def test_a_measured_cost_is_given_but_cannot_judge_an_unstated_one():
+    """Mesh and steps of the paper are not printed, so no ratio of ours confirms or refutes its 40."""
+    measured = {"wave_seconds": 1.0, "fea_seconds": 15.0}
+    entry = next(entry for entry in ledger(measured) if entry.id == "cost_ratio")
+    assert entry.recomputed == 15.0
+    assert entry.verdict is Verdict.NOT_SPECIFIED
+    alone = next(entry for entry in ledger({"fea_seconds": 15.0}) if entry.id == "cost_ratio")
+    assert alone.recomputed is None
 
 
 def test_measured_numbers_fill_what_is_not_specified():

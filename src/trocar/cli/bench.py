@@ -11,6 +11,8 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from trocar.errors import InputError
+
 if TYPE_CHECKING:
     from trocar.study.cost.equal_error import EqualError
     from trocar.study.cost.tick_cost import TickCost
@@ -19,6 +21,8 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print JSON alone.")]
 TissueName = Annotated[str, typer.Option("--tissue", help="A preset; see trocar tissues list.")]
 _SIZE = (0.06, 0.06)  # [m] the paper's block
 _TOLERANCE = 1e-4  # of the deflection under a live tool
+_TOLERANCE_RANGE = (1e-8, 0.1)  # below, the modes no longer fit into memory
+_DIAMETER_RANGE_MM = (2.0, 30.0)  # on the block of 60 mm
 _DYNAMIC = (0.01, 0.005, 0.003)  # tolerances; below the last, steps of 1 ms cannot follow the force
 _STATIC = (0.01, 0.005, 0.001)
 
@@ -47,6 +51,9 @@ def step(
     from trocar.study.cost.warm_up import compile_steps
     from trocar.tissues.catalogue import tissue as preset
 
+    _within("--tolerance", tolerance, *_TOLERANCE_RANGE)
+    for diameter in diameters_mm or ():
+        _within("--diameter-mm", diameter, *_DIAMETER_RANGE_MM)
     layers = preset(tissue)
     compiled = compile_steps()
     costs = [
@@ -75,6 +82,7 @@ def cost(
     from trocar.study.cost.warm_up import compile_steps
     from trocar.tissues.catalogue import tissue as preset
 
+    _within("--diameter-mm", diameter_mm, *_DIAMETER_RANGE_MM)
     layers = preset(tissue)
     compiled = compile_steps()
     tool = Press(x=_SIZE[0] / 2, y=_SIZE[1] / 2, radius=5e-4 * diameter_mm, force=0.1)
@@ -98,6 +106,11 @@ def cost(
         "CPU time. setting: modes a side of the waves (/ moving ones / Ritz vectors), elements a radius / growth of "
         f"finite elements, and the step.\ncompiled code ready after {compiled:.2f} s"
     )
+
+
+def _within(flag: str, value: float, low: float, high: float) -> None:
+    if not low <= value <= high:
+        raise InputError(flag, f"a number from {low:g} to {high:g}", value)
 
 
 def _print_json(content: object) -> None:

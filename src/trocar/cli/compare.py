@@ -51,15 +51,13 @@ def _print(result: Comparison) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from trocar.study.history import LARGEST_FIT_ERROR
     from trocar.units import MILLIMETRE
 
     console = Console()
     case = result.case
+    peaks = " and ".join(f"{tool.peak:g}" for tool in case.tools)
     sides = " x ".join(f"{side / MILLIMETRE:g}" for side in case.size)
-    console.print(
-        f"[bold]{case.title}[/]: {sides} mm, support {case.support.value}, peak {case.peak_force:g} N"
-    )
+    console.print(f"[bold]{case.title}[/]: {sides} mm, support {case.support.value}, peak {peaks} N")
     table = Table()
     table.add_column("largest deflection, mm")
     for history in result.histories:
@@ -73,15 +71,16 @@ def _print(result: Comparison) -> None:
     table.add_row("unknowns", *(f"{history.dofs}" for history in result.histories))
     limits = [history.linear_range for history in result.histories]
     table.add_row("in the linear range", *("yes" if limit.inside else "NO" for limit in limits))
+    table.add_row(
+        "stated for this case", *("NO" if history.departures else "yes" for history in result.histories)
+    )
     fits = [history.fit_error for history in result.histories]
     if any(fits):
         table.add_row("misfit", *(f"{100 * fit:.1f} %" if fit else "" for fit in fits))
     console.print(table)
-    if max(fits) > LARGEST_FIT_ERROR:
-        console.print(
-            f"Outside the range of the fitted membranes: they miss the layered solid by {100 * max(fits):.0f} %.",
-            style="bold",
-        )
+    for history in result.histories:
+        for reason in history.departures:
+            console.print(f"{history.model} is not stated for this case: {reason}.", style="bold")
     if not all(limit.inside for limit in limits):
         least = min(limit.force_limit for limit in limits)
         console.print(

@@ -3,7 +3,7 @@
 - 0: done, whatever the models, the ledger or the score say.
 - 1: it could not be done: a solver failed, a file cannot be written, memory ran out.
 - 2: wrong usage or bad input.
-- 130: interrupted from the keyboard.
+- 130: interrupted, from the keyboard or by SIGTERM.
 
 Anything else is a mistake of ours and keeps its traceback.
 """
@@ -11,8 +11,10 @@ Anything else is a mistake of ours and keeps its traceback.
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Protocol
 
 from pydantic import ValidationError
@@ -42,6 +44,8 @@ def run(command: Command, program: str, arguments: Sequence[str]) -> int:
         program: the name its messages begin with.
         arguments: what stands after the program's name.
     """
+    with suppress(ValueError):  # outside the main thread, as in a notebook's
+        signal.signal(signal.SIGTERM, _interrupt)
     try:
         code = command.main(list(arguments), program, standalone_mode=False)
         sys.stdout.flush()
@@ -63,6 +67,11 @@ def run(command: Command, program: str, arguments: Sequence[str]) -> int:
     if code == INTERRUPTED:
         return _leave(INTERRUPTED, program, "interrupted")
     return code if isinstance(code, int) else DONE
+
+
+def _interrupt(_number: int, _frame: object) -> None:
+    """End on SIGTERM as on an interrupt from the keyboard, so that what was begun is cleared away."""
+    raise KeyboardInterrupt
 
 
 def _leave(code: int, program: str, sentence: str) -> int:

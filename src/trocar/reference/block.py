@@ -65,34 +65,43 @@ def quarter_mesh(
     """
     for press in around:
         require_on_block(press, size)
-    smallest = min(min(_resolved(press)) for press in around)
+    smallest = min(min(_resolved(press, tissue)) for press in around)
     clamped = mesh.side * smallest if support.sides_clamped else inf
     x, y = (
-        graded_lines(0.0, 0.5 * side, _along(side, around, axis, clamped, mesh), mesh.refinement)
+        graded_lines(0.0, 0.5 * side, _along(side, tissue, around, axis, clamped, mesh), mesh.refinement)
         for axis, side in enumerate(size)
     )
     z, slab_layer = _through(tissue, smallest, mesh)
     return Bricks(x=x, y=y, z=z, slab_layer=slab_layer)
 
 
-def _resolved(press: Press) -> tuple[float, float]:
-    """Half the width along x and y that the mesh has to resolve [m]."""
+def _resolved(press: Press, tissue: Tissue) -> tuple[float, float]:
+    """What the mesh has to resolve along x and y [m]: half the footprint's width.
+
+    A footprint wider than the block is thick bends it within a thickness of its rim, which is then resolved instead,
+    down to a quarter of that half width.
+    """
+    x, y = _half_width(press)
+    return max(min(x, tissue.thickness), x / 4), max(min(y, tissue.thickness), y / 4)
+
+
+def _half_width(press: Press) -> tuple[float, float]:
     narrow = _GAUSSIAN_WIDTH if press.profile is Profile.GAUSSIAN else 1.0
     x, y = half_extent(press)
     return narrow * x, narrow * y
 
 
-def _along(side: float, around: Load, axis: int, clamped: float, mesh: MeshSize) -> Spacing:
+def _along(side: float, tissue: Tissue, around: Load, axis: int, clamped: float, mesh: MeshSize) -> Spacing:
     spans = []
     for press in around:
-        centre, half = (press.x, press.y)[axis], _resolved(press)[axis]
+        centre, half = (press.x, press.y)[axis], _half_width(press)[axis]
         folded = min(centre, side - centre)
-        spans.append((folded, half))
+        spans.append((folded, half, _resolved(press, tissue)[axis]))
 
     def spacing(places: FloatArray) -> FloatArray:
         wished = [
-            half / mesh.per_radius + mesh.growth * np.maximum(np.abs(places - folded) - half, 0.0)
-            for folded, half in spans
+            fine / mesh.per_radius + mesh.growth * np.maximum(np.abs(places - folded) - half, 0.0)
+            for folded, half, fine in spans
         ]
         return np.asarray(np.min([*wished, clamped + mesh.growth * places], axis=0))
 

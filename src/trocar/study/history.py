@@ -14,9 +14,9 @@ from trocar.study.cases.experiment import Case
 from trocar.study.deflection import deflections, search_points
 from trocar.study.linear_range import LinearRange, linear_range
 from trocar.study.models import AnyModel
+from trocar.study.stated_range import departures
 
 Progress = Callable[[float], None]
-LARGEST_FIT_ERROR = 0.05  # what the study asks of fitted membranes
 _IMPLICIT_STEP = 2.5e-4  # [s] of finite elements: a hundredth of a 40 Hz period, 0.1 % of its phase
 _MOST_IMPLICIT_STEPS = 4000  # in one case: a longer one takes longer steps, its load being slower too
 
@@ -35,6 +35,7 @@ class History:
         dofs: unknowns solved for.
         linear_range: how far the largest load of all tools together lies from the end of the linear range.
         fit_error: how far a fitted model missed what it was fitted to [1]; 0 where nothing was fitted.
+        departures: why, linearity aside, the model is not stated for this case; empty where it is.
     """
 
     model: str
@@ -46,11 +47,12 @@ class History:
     dofs: int
     linear_range: LinearRange
     fit_error: float
+    departures: tuple[str, ...]
 
     @property
     def in_range(self) -> bool:
-        """Whether the model is stated for this case: inside the linear range, and fitted where it is a fit."""
-        return self.linear_range.inside and self.fit_error <= LARGEST_FIT_ERROR
+        """Whether the model is stated for this case."""
+        return self.linear_range.inside and not self.departures
 
     @property
     def block(self) -> FloatArray:
@@ -78,6 +80,7 @@ def run(
     depths, setup, furthest = follow(case, model, times, progress)
     done = process_time()
     peaks = tuple(tool.press(tool.peak) for tool in case.tools)
+    fit_error = getattr(model, "fit_error", None) or 0.0
     return History(
         model=name,
         time=times,
@@ -86,7 +89,8 @@ def run(
         cpu_seconds=done - began,
         setup_seconds=setup - began,
         dofs=model.dofs,
-        fit_error=getattr(model, "fit_error", None) or 0.0,
+        fit_error=fit_error,
+        departures=departures(case, name, fit_error=fit_error, modes=getattr(model, "modes", None)),
         linear_range=linear_range(model, case.tissue, peaks, furthest),
     )
 

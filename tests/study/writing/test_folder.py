@@ -139,3 +139,10 @@ def test_a_place_that_may_not_be_written_is_an_error_of_the_system(tmp_path, mon
     monkeypatch.setattr(os, "access", lambda _place, _mode: False)  # the superuser may write everywhere
     with pytest.raises(PermissionError, match="Permission denied"):
         check_folder(tmp_path / "study")
+
+
+def test_the_folder_one_stands_in_is_not_replaced(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match="the folder you stand in"):
+        check_folder(tmp_path)
+    assert tmp_path.is_dir()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from trocar.study.ledger import paper
-from trocar.study.ledger.entry import Entry, Verdict, recomputed_entry, unspecified_entry
+from trocar.study.ledger.entry import Entry, recomputed_entry, unspecified_entry
 
 SECONDS_A_MINUTE = 60.0
 VOLUMES_A_YEAR = 2  # Annals of Surgery
@@ -72,9 +72,8 @@ def _cost(wave_seconds: float | None, fea_seconds: float | None) -> Entry:
     return replace(
         entry,
         recomputed=ratio,
-        verdict=Verdict.REPRODUCED if ratio >= claimed else Verdict.INCONSISTENT,
-        note=f"{stated}; here {wave_seconds:.3g} s against {fea_seconds:.3g} s, both on one machine. "
-        "Reproduced means a saving at least as large.",
+        note=f"{stated}; here {wave_seconds:.3g} s against {fea_seconds:.3g} s, both on one machine, at default "
+        "settings and not at equal error.",
     )
 
 

@@ -99,7 +99,10 @@ def answer(study: Study, ranges: Ranges | None) -> Answer:
             Figure(value=percent(error), meaning=f"largest difference of {label(MODEL)} in any layer"),
             Figure(value=percent(by_membrane), meaning=f"the same of {label(MEMBRANE)}"),
             Figure(value=f"± {percent(bound)}", meaning="numerical uncertainty of the comparison"),
-            Figure(value=f"{_round(ratio)}×", meaning=f"cheaper: a press; {_round(in_time)}× a tap in time"),
+            Figure(
+                value=f"{_round(ratio)}×",
+                meaning=f"cheaper: a press; {_round(in_time)}× a tap, at default settings",
+            ),
         ),
         small_inside=None if near is None else near.inside,
         paper_inside=inside,

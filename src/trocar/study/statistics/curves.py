@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from math import isfinite
+from math import isfinite, isnan
 
 import numpy.typing as npt
 
@@ -73,7 +73,8 @@ class CurveComparison:
         plain = _plain(asdict(self))
         assert isinstance(plain, dict)
         for key in ("equivalence", "equivalence_if_independent", "equivalence_unpaired"):
-            plain[key]["shown"] = getattr(self, key).shown
+            found: Equivalence = getattr(self, key)
+            plain[key]["shown"] = None if isnan(found.p) else found.shown  # None: no test was possible
         plain["published_t_test"]["rejected"] = self.published_t_test.rejected
         plain["published_t_test"]["passes_as_printed"] = self.published_t_test.passes_as_printed
         return plain

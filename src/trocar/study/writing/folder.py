@@ -40,6 +40,10 @@ def check_folder(out: Path) -> Path:
         raise InputError(
             f"out: {out}", _EXPECTED, "a folder with other files", "name another, or empty it yourself"
         )
+    if place == Path.cwd():
+        raise InputError(
+            f"out: {out}", _EXPECTED, "the folder you stand in", "name one below it, such as study"
+        )
     nearest = next(parent for parent in place.parents if parent.exists())
     if not nearest.is_dir():
         raise InputError(f"out: {out}", _EXPECTED, f"a place below the file {nearest.name}")

@@ -1,0 +1,52 @@
+"""Which cases each model is stated for, linearity aside; the figures are in docs/explanation/range-of-validity.md."""
+
+from __future__ import annotations
+
+from trocar.model import Profile, Support
+from trocar.study.cases.experiment import Case
+from trocar.waves.cutoff import modes_for
+
+LARGEST_FIT_ERROR = 0.05  # what the study asks of fitted membranes
+LEAST_DISTANCE = 2.5  # of a tool from a clamped side, in thicknesses of the block: beyond it 1 % is reached
+_SHARE_LEFT_OUT = 0.05  # by the rule's envelope, of a membrane's series that was cut off
+
+MEMBRANE = "wave-membrane"
+WAVES = (MEMBRANE, "wave-solid")
+
+
+def departures(case: Case, model: str, *, fit_error: float, modes: tuple[int, int] | None) -> tuple[str, ...]:
+    """Return why a model is not stated for a case, a clause each; empty where it is.
+
+    Args:
+        case: the experiment.
+        model: its name.
+        fit_error: how far a fitted model missed what it was fitted to [1].
+        modes: highest m and n of its series; None where it has none.
+    """
+    found = []
+    if model in WAVES and case.support is Support.EDGES:
+        found.append("clamped sides bear the load, and the waves' sides may turn")
+    if model in WAVES and case.support is Support.EDGES_AND_BASE and _nearest_side(case) < LEAST_DISTANCE:
+        found.append(f"a tool is nearer to a clamped side than {LEAST_DISTANCE:g} thicknesses of the block")
+    if model == MEMBRANE:
+        if case.sampling.dynamic:
+            found.append("membranes are fitted to slow loads")
+        if fit_error > LARGEST_FIT_ERROR:
+            found.append(f"the fitted membranes miss the layered solid by {100 * fit_error:.0f} %")
+        radius = min(tool.diameter / 2 for tool in case.tools)
+        wanted = modes_for(radius, Profile.FLAT, case.size, _SHARE_LEFT_OUT)
+        if modes is not None and any(has < asked for has, asked in zip(modes, wanted, strict=True)):
+            found.append(f"the tool needs {max(wanted)} modes a side, and the membranes have {max(modes)}")
+    return tuple(found)
+
+
+def _nearest_side(case: Case) -> float:
+    """Return the least distance of a tool's centre from a side, in thicknesses of the block."""
+    return (
+        min(
+            min(centre, side - centre)
+            for tool in case.tools
+            for centre, side in zip(tool.position, case.size, strict=True)
+        )
+        / case.tissue.thickness
+    )
