@@ -10,9 +10,10 @@ from time import monotonic, sleep
 
 import pytest
 
+from trocar.reference import fea
 from trocar.reference.block import MeshSize
 from trocar.reference.fea import FEASolid
-from trocar.study import history, models, protocol
+from trocar.study import models, protocol
 from trocar.study.plan import Plan
 from trocar.study.protocol import Study, run_study
 
@@ -33,7 +34,7 @@ def small_study() -> Study:
     """Run the quick plan on coarse meshes with long steps."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(protocol, "MeshSize", lambda: MeshSize(**COARSE))
-        patch.setattr(history, "_IMPLICIT_STEP", 2e-3)
+        patch.setattr(fea, "_LONGEST_STEP", 2e-3)
         patch.setitem(models.MODELS, "fea", _coarse)
         return run_study(Plan(quick=True))
 

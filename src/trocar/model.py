@@ -137,6 +137,11 @@ class TissueModel(Protocol[S]):
         """Unknowns solved for by the loads so far."""
         ...
 
+    @property
+    def longest_step(self) -> float:
+        """The longest step that still follows a moving tissue [s]; infinite where the step is exact."""
+        ...
+
     def init(self) -> S:
         """Return the state at rest at time 0."""
         ...

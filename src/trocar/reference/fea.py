@@ -30,6 +30,7 @@ _CACHED_RESPONSES = 16  # responses kept; each is a few arrays the size of the m
 _POINTS_PER_ELEMENT = (
     6  # along an edge, where the largest deflection is looked for: it is missed by 2e-4 at most
 )
+_LONGEST_STEP = 2.5e-4  # [s]
 _DEFAULT_RADIUS = 1 / 15  # of the shorter side: 4 mm on a 60 mm block
 
 
@@ -101,6 +102,11 @@ class FEASolid:
     def dofs(self) -> int:
         """Unknowns of the quarter, added over the parities used by `around` and by the loads so far."""
         return sum(len(self._system.free(parity)) for parity in self._parities)
+
+    @property
+    def longest_step(self) -> float:
+        """A hundredth of a 40 Hz period [s]: average acceleration then loses 0.03 % of its phase."""
+        return _LONGEST_STEP
 
     def init(self) -> FEAState:
         """Return the state at rest at time 0."""

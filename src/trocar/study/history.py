@@ -17,8 +17,7 @@ from trocar.study.models import AnyModel
 from trocar.study.stated_range import departures
 
 Progress = Callable[[float], None]
-_IMPLICIT_STEP = 2.5e-4  # [s] of finite elements: a hundredth of a 40 Hz period, 0.1 % of its phase
-_MOST_IMPLICIT_STEPS = 4000  # in one case: a longer one takes longer steps, its load being slower too
+_MOST_STEPS = 4000  # in one case: a longer one takes longer steps, its load being slower too
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,9 +122,7 @@ def _moving(
     points = search_points(case.size, case.load_at(0.0))
     layers = case.tissue.layer_names
     state = furthest = model.init()
-    longest = (
-        np.inf if hasattr(model, "oscillators") else max(_IMPLICIT_STEP, case.duration / _MOST_IMPLICIT_STEPS)
-    )
+    longest = max(model.longest_step, case.duration / _MOST_STEPS)
     depths = np.zeros((len(layers), len(times)))
     setup = process_time()
     for i, (start, end) in enumerate(itertools.pairwise(times)):

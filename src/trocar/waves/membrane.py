@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
+from math import inf
 
 import numpy as np
 
@@ -99,6 +100,11 @@ class WaveMembrane:
     def dofs(self) -> int:
         """Amplitudes solved for: modes times layers."""
         return self.modes[0] * self.modes[1] * len(self.layer_names)
+
+    @property
+    def longest_step(self) -> float:
+        """Infinite: the step is exact."""
+        return inf
 
     def init(self) -> WaveState:
         """Return the state at rest at time 0."""

@@ -10,6 +10,7 @@ simply: the difference is stated and measured in the study, and grows towards th
 from __future__ import annotations
 
 from functools import cached_property, lru_cache
+from math import inf
 
 import numpy as np
 
@@ -86,6 +87,11 @@ class WaveSolid:
         across = int(np.isfinite(self._compliance_wv[..., 0, 0, 0]).sum()) * self._layers_wv.size
         aside = int(np.isfinite(self._compliance_s[..., 0, 0, 0]).sum())
         return across + (aside * self._layers_s.size if aside else 0)
+
+    @property
+    def longest_step(self) -> float:
+        """Infinite: the step is exact."""
+        return inf
 
     def init(self) -> WaveState:
         """Return the state at rest at time 0."""
