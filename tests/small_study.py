@@ -33,9 +33,9 @@ LEDGER = (
 def small_study() -> Study:
     """Run the quick plan on coarse meshes with long steps."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(protocol, "MeshSize", lambda: MeshSize(**COARSE))
+        patch.setattr(protocol, "COARSE_MESH", MeshSize(**COARSE))
         patch.setattr(fea, "_LONGEST_STEP", 2e-3)
-        patch.setitem(models.MODELS, "fea", _coarse)
+        patch.setitem(models.QUICK_MODELS, "fea", _coarse)
         return run_study(Plan(quick=True))
 
 

@@ -94,11 +94,4 @@ def _ledger(study: Study | None) -> Sequence[Mapping[str, object]]:
 
 def _ranges(study: Study) -> Ranges:
     """Return the verdicts on the linear range by case."""
-    cases = {
-        "small": study.small,
-        "paper": study.paper,
-        "tilted": study.tilted,
-        "pair": study.pair,
-        "tap": study.tap,
-    }
-    return {name: comparison[MODEL].linear_range for name, comparison in cases.items()}
+    return {name: comparison[MODEL].linear_range for name, comparison in study.cases.items()}

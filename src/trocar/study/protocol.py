@@ -88,6 +88,17 @@ class Study:
     seconds: float
     machine: dict[str, str]
 
+    @property
+    def cases(self) -> dict[str, Comparison]:
+        """The cases shown one by one, by the name they have in files."""
+        return {
+            "small": self.small,
+            "paper": self.paper,
+            "tilted": self.tilted,
+            "pair": self.pair,
+            "tap": self.tap,
+        }
+
 
 def run_study(plan: Plan, watch: Watch = lambda _what, _share: None) -> Study:
     """Run the study.

@@ -43,13 +43,7 @@ def study_dataset(study: Study, *, created: str, command: str = "") -> xr.Datase
         command: that made it.
     """
     layers = study.small.case.tissue.layer_names
-    cases = {
-        "small": study.small,
-        "paper": study.paper,
-        "tilted": study.tilted,
-        "pair": study.pair,
-        "tap": study.tap,
-    }
+    cases = study.cases
     first = next(iter(study.surfaces.values()))
     variables: dict[str, xr.Variable] = {
         "layer": _named("layer", layers, "layer, top first"),
