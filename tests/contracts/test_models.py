@@ -30,6 +30,20 @@ class TestWaveSolid(TissueModelContract):
         return WaveSolid(three_layers(), size=SIZE, modes=(32, 32), dynamic_modes=(12, 12))
 
 
+class TestClampedWaveSolid(TestWaveSolid):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        return WaveSolid(
+            three_layers(),
+            size=SIZE,
+            support="edges+base",
+            modes=(32, 32),
+            dynamic_modes=(12, 12),
+            side_modes=(16, 16),
+        )
+
+
 class TestFEASolid(TissueModelContract):
     # Average acceleration damps nothing by itself, and 50 ms steps leave the fast modes ringing for long.
     settled = 1e-2

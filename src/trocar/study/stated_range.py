@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from trocar.model import Profile, Support
+from trocar.model import Profile
 from trocar.study.cases.experiment import Case
+from trocar.units import MILLIMETRE
+from trocar.waves.clamped import SIDE_MODES
 from trocar.waves.cutoff import modes_for
 
 LARGEST_FIT_ERROR = 0.05  # what the study asks of fitted membranes
-LEAST_DISTANCE = 2.5  # of a tool from a clamped side, in thicknesses of the block: beyond it 1 % is reached
+LEAST_GAP = 3.0  # from a tool's rim to a clamped side, in the shortest half waves that resolve it: 1 % beyond
 _SHARE_LEFT_OUT = 0.05  # by the rule's envelope, of a membrane's series that was cut off
 
 MEMBRANE = "wave-membrane"
@@ -24,10 +26,12 @@ def departures(case: Case, model: str, *, fit_error: float, modes: tuple[int, in
         modes: highest m and n of its series; None where it has none.
     """
     found = []
-    if model in WAVES and case.support is Support.EDGES:
-        found.append("clamped sides bear the load, and the waves' sides may turn")
-    if model in WAVES and case.support is Support.EDGES_AND_BASE and _nearest_side(case) < LEAST_DISTANCE:
-        found.append(f"a tool is nearer to a clamped side than {LEAST_DISTANCE:g} thicknesses of the block")
+    if model in WAVES and case.support.sides_clamped:
+        if case.sampling.dynamic:
+            found.append("clamped sides hold moving waves without inertia of their own")
+        least = LEAST_GAP * max(side / m for side, m in zip(case.size, SIDE_MODES, strict=True))
+        if _nearest_rim(case) < least:
+            found.append(f"a tool's rim is nearer to a clamped side than {least / MILLIMETRE:.3g} mm")
     if model == MEMBRANE:
         if case.sampling.dynamic:
             found.append("membranes are fitted to slow loads")
@@ -40,13 +44,10 @@ def departures(case: Case, model: str, *, fit_error: float, modes: tuple[int, in
     return tuple(found)
 
 
-def _nearest_side(case: Case) -> float:
-    """Return the least distance of a tool's centre from a side, in thicknesses of the block."""
-    return (
-        min(
-            min(centre, side - centre)
-            for tool in case.tools
-            for centre, side in zip(tool.position, case.size, strict=True)
-        )
-        / case.tissue.thickness
+def _nearest_rim(case: Case) -> float:
+    """Return the least distance of a tool's rim from a side [m], the tool taken as upright."""
+    return min(
+        min(centre, side - centre) - tool.diameter / 2
+        for tool in case.tools
+        for centre, side in zip(tool.position, case.size, strict=True)
     )

@@ -18,7 +18,9 @@ A fit holds for the block it was made for: its size, its support, and tools from
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache
 from math import ceil, pi
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares, lsq_linear, nnls
@@ -26,10 +28,11 @@ from scipy.optimize import least_squares, lsq_linear, nnls
 from trocar.model import FloatArray, Profile, Support
 from trocar.tissues.layer import Layer
 from trocar.tissues.tissue import Tissue
+from trocar.waves.clamped import SIDE_MODES, ClampedSides
 from trocar.waves.footprint import transform
 from trocar.waves.series import Series
 from trocar.waves.stack import Coupling, Stack, derived_stack
-from trocar.waves.thin_layer import ThinLayers, Wavenumbers, vertical_and_along
+from trocar.waves.thin_layer import ThinLayers, Wavenumbers, horizontal_shear, vertical_and_along
 
 RADII = (2.5e-3, 3e-3, 4e-3, 6e-3)  # [m] tools of 5, 6, 8 and 12 mm
 _REACH = 8.25  # highest wavenumber times the smallest radius: a flat tool's peak within 0.1 %
@@ -57,6 +60,14 @@ class Fit:
     error: float
 
 
+class _Row(NamedTuple):
+    """A place of the profile: beside a tool of some radius [m], by `station` radii along x."""
+
+    radius: float
+    share: float  # of both sides, where the tool stands
+    station: float
+
+
 @dataclass(frozen=True)
 class _Target:
     """What the solid does, and how a compliance per wavenumber turns into deflections along the profile."""
@@ -65,8 +76,13 @@ class _Target:
     compliance: FloatArray  # faces under a unit pressure amplitude [m/Pa], (J, faces)
     damping: FloatArray  # first moment at the top face, (J,)
     inertia: FloatArray  # second moment at the top face, (J,)
-    under: FloatArray  # under the tools, (radii * shares, J)
-    profile: FloatArray  # the same, and beside the central ones, (rows, J)
+    profile: FloatArray  # under the tools, and beside the central ones, (rows, J)
+    tools: int  # how many of the rows are under the tools: radii times shares
+    deflection: FloatArray  # what the solid does along the profile, its clamps included, (rows, faces)
+
+    @property
+    def under(self) -> FloatArray:
+        return self.profile[: self.tools]
 
 
 def fitted_stack(
@@ -93,9 +109,8 @@ def fitted_stack(
 
 
 def _error(stack: Stack, target: _Target) -> float:
-    wanted = target.under @ target.compliance
     reached = target.under @ _response(_coefficients(stack), len(stack.sheets), target.at)
-    return float(np.abs(reached / wanted - 1).max())
+    return float(np.abs(reached / target.deflection[: target.tools] - 1).max())
 
 
 def _evenly_prestressed(layer: Layer) -> Layer:
@@ -107,23 +122,54 @@ def _target(tissue: Tissue, size: tuple[float, float], support: Support, radii: 
     a, b = size
     series = Series(size, _highest_modes(size, radii))
     kx, ky = (grid.ravel() for grid in np.meshgrid(series.kx[1:], series.ky[1:], indexing="ij"))
-    k = np.hypot(kx, ky)
-    _, first, places = np.unique(np.round(k * a, 9), return_index=True, return_inverse=True)
-    at = Wavenumbers(k[first], kx[first] ** 2, ky[first] ** 2)
+    k_all = np.hypot(kx, ky)
+    _, first, places = np.unique(np.round(k_all * a, 9), return_index=True, return_inverse=True)
+    at = Wavenumbers(k_all[first], kx[first] ** 2, ky[first] ** 2)
 
     layers = vertical_and_along(tissue, base_held=support.base_held)
     compliance, damping, inertia = _moments(layers, at)
 
-    def deflection(radius: float, share: float, station: float) -> FloatArray:
-        """Return what each wavenumber adds at a station beside a tool at that share of both sides."""
-        x, y = share * a, share * b
-        shape = np.sin(kx * x) * np.sin(ky * y) * np.sin(kx * (x + radius * station)) * np.sin(ky * y)
-        weight = 4 / (a * b) * transform(Profile.FLAT, k * radius) * shape
+    def weights(row: _Row) -> FloatArray:
+        """Return what each wavenumber adds at a station beside a tool."""
+        x, y = row.share * a, row.share * b
+        shape = np.sin(kx * x) * np.sin(ky * y) * np.sin(kx * (x + row.radius * row.station)) * np.sin(ky * y)
+        weight = 4 / (a * b) * transform(Profile.FLAT, k_all * row.radius) * shape
         return np.asarray(np.bincount(places, weight, minlength=len(first)), dtype=np.float64)
 
-    under = [deflection(radius, share, 0.0) for radius in radii for share in _SHARES]
-    beside = [deflection(radius, 0.5, station) for radius in radii for station in _STATIONS]
-    return _Target(at, compliance, damping, inertia, np.array(under), np.array(under + beside))
+    under = [_Row(radius, share, 0.0) for radius in radii for share in _SHARES]
+    rows = under + [_Row(radius, 0.5, station) for radius in radii for station in _STATIONS]
+    profile = np.array([weights(row) for row in rows])
+    deflection = profile @ compliance
+    if support.sides_clamped:
+        deflection += _clamped(layers, horizontal_shear(tissue, base_held=support.base_held), size, rows)
+    return _Target(at, compliance, damping, inertia, profile, len(under), deflection)
+
+
+def _clamped(
+    layers_wv: ThinLayers, layers_s: ThinLayers, size: tuple[float, float], rows: list[_Row]
+) -> FloatArray:
+    """Return what clamped sides add to the deflection along the profile, shape (rows, faces)."""
+    series = Series(size, SIDE_MODES)
+    sides = ClampedSides(layers_wv, layers_s, series)
+    a, b = size
+    kx, ky = series.kx[:, None], series.ky[None, :]
+    none = np.zeros(series.shape)
+
+    @cache
+    def waves(radius: float, share: float) -> FloatArray:
+        shape = np.sin(kx * share * a) * np.sin(ky * share * b)
+        found: FloatArray = sides.under_load(
+            4 / (a * b) * transform(Profile.FLAT, np.hypot(kx, ky) * radius) * shape, none, none
+        )[0]
+        return found
+
+    def read(row: _Row) -> FloatArray:
+        x, y = row.share * a + row.radius * row.station, row.share * b
+        sines = np.sin(series.kx * x), np.sin(series.ky * y)
+        faces: FloatArray = np.einsum("m,n,mnf->f", *sines, waves(row.radius, row.share))
+        return faces
+
+    return np.array([read(row) for row in rows])
 
 
 def _highest_modes(size: tuple[float, float], radii: tuple[float, ...]) -> tuple[int, int]:
@@ -151,8 +197,7 @@ def _fit_static(tissue: Tissue, target: _Target, support: Support) -> Stack:
     first -= prestress
     free = np.ones(len(first), dtype=bool)
     free[-1] = support.base_held
-    wanted = target.profile @ target.compliance
-    peaks = np.abs(wanted).max(axis=0)
+    peaks = np.abs(target.deflection).max(axis=0)
 
     def coefficients(logarithms: FloatArray) -> FloatArray:
         values = first.copy()
@@ -161,7 +206,7 @@ def _fit_static(tissue: Tissue, target: _Target, support: Support) -> Stack:
 
     def misfit(logarithms: FloatArray) -> FloatArray:
         response = _response(coefficients(logarithms), layers, target.at)
-        residual: FloatArray = ((target.profile @ response - wanted) / peaks).ravel()
+        residual: FloatArray = ((target.profile @ response - target.deflection) / peaks).ravel()
         return residual
 
     highest = np.full(len(first), _LOG_RANGE)

@@ -68,8 +68,10 @@ def hold(model: WaveSolid, tool: Press, dt: float) -> HeldTool:
         dt: length of a step [s].
 
     Raises:
-        InputError: the tool is tilted.
+        InputError: the tool is tilted, or the sides are clamped.
     """
+    if model.support.sides_clamped:
+        raise InputError("held tool: support", "simply supported sides, base", model.support.value)
     if tool.tilt > 0:
         raise InputError("held tool: tilt", "an upright tool, 0", tool.tilt)
     unit = tool.with_force(1.0)

@@ -163,7 +163,7 @@ class WaveMembrane:
             raise InputError("layer", f"one of {', '.join(self.layer_names)}", layer)
         place = 0 if layer is None else self.layer_names.index(layer)
         (oscillators,) = state.oscillators
-        table = np.zeros((self.modes[0] + 1, self.modes[1] + 1))
+        table = np.zeros(self._series.shape)
         table[1:, 1:] = self.oscillators.read(oscillators)[:, place].reshape(self.modes)
         return table
 

@@ -19,21 +19,24 @@ _CHUNK = 256  # wavenumbers at a time: 256 dense matrices of 60 x 60 are 7 MiB
 _EVEN = 1e-12  # relative spread of retardation times that counts as none
 
 
-def ritz_oscillators(layers: ThinLayers, at: Wavenumbers, order: int) -> Oscillators:
+def ritz_oscillators(
+    layers: ThinLayers, at: Wavenumbers, order: int, *, everywhere: bool = False
+) -> Oscillators:
     """Reduce J wavenumbers to a few oscillators each.
 
     Args:
         layers: matrices through the thickness, c components a node.
         at: J wavenumbers.
         order: how often inertia is fed back; order vectors per component, and one more where damping is uneven.
+        everywhere: whether every node is read, base up; else the layers' upper faces are, top down.
 
     Returns:
-        Oscillators with c inputs (traction amplitudes on the top face) and faces times c outputs (face by face).
+        Oscillators with c inputs (traction amplitudes on the top face) and c outputs for each node or face read.
     """
     pieces = []
     for start in range(0, len(at.k), _CHUNK):
         part = slice(start, start + _CHUNK)
-        pieces.append(_reduce(layers, Wavenumbers(at.k[part], at.kx2[part], at.ky2[part]), order))
+        pieces.append(_reduce(layers, Wavenumbers(at.k[part], at.kx2[part], at.ky2[part]), order, everywhere))
     return Oscillators(
         matrices=np.concatenate([piece.matrices for piece in pieces]),
         inputs=np.concatenate([piece.inputs for piece in pieces]),
@@ -43,7 +46,7 @@ def ritz_oscillators(layers: ThinLayers, at: Wavenumbers, order: int) -> Oscilla
     )
 
 
-def _reduce(layers: ThinLayers, at: Wavenumbers, order: int) -> Oscillators:
+def _reduce(layers: ThinLayers, at: Wavenumbers, order: int, everywhere: bool) -> Oscillators:
     stiffness, damping = layers.stiffness(at), layers.damping(at)
     flexibility = np.linalg.inv(stiffness)
     components = layers.components
@@ -67,7 +70,7 @@ def _reduce(layers: ThinLayers, at: Wavenumbers, order: int) -> Oscillators:
         damping=_symmetric(transposed @ damping @ basis),
         stiffness=identity,
         forcing=transposed[:, :, -components:],
-        reading=basis[:, faces],
+        reading=basis if everywhere else basis[:, faces],
     )
 
 

@@ -55,6 +55,11 @@ class Series:
         result: FloatArray = np.arange(self.modes[1] + 1, dtype=np.float64) * (np.pi / self.size[1])
         return result
 
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Of a table: M + 1, N + 1."""
+        return self.modes[0] + 1, self.modes[1] + 1
+
     def vertical(self, table: FloatArray, points: FloatArray) -> FloatArray:
         """Sum table[m, n] sin(kx x) sin(ky y) at points [m], shape (p, >= 2); returns shape (p,)."""
         return self._sum(np.sin, table, np.sin, points)

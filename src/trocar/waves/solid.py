@@ -3,8 +3,8 @@
 Across the block the series of `series` diagonalise the problem exactly where the sides are simply supported, so what
 is left per wavenumber is a small banded system (see `thin_layer`). Two nested sets of wavenumbers serve it: all of
 them follow the load statically (`banded`), and the lower ones besides carry oscillators (`ritz`), whose static part
-is exact. Where the case says that the sides are clamped (`edges`, `edges+base`) this model still supports them
-simply: the difference is stated and measured in the study, and grows towards the sides.
+is exact. Where the sides are clamped (`edges`, `edges+base`), tractions on them undo what the series leaves free there
+(`clamped`): exact for a static answer, while in motion the clamps act at once.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from trocar.model import FloatArray, Load, Press, Support
 from trocar.tissues.tissue import Tissue
 from trocar.waves.banded import surface_compliance
+from trocar.waves.clamped import SIDE_MODES, ClampedSides
 from trocar.waves.footprint import modal_forces
 from trocar.waves.oscillators import Oscillators
 from trocar.waves.ritz import ritz_oscillators
@@ -28,14 +29,15 @@ _SILENT = 1e-13  # modal force relative to the largest: below it is rounding (a 
 
 
 class WaveSolid:
-    """A layered elastic block with simply supported sides.
+    """A layered elastic block.
 
     Args:
         tissue: the layers.
         size: sides a, b [m].
-        support: which support the block stands for; the base is held unless it is `edges`.
+        support: how the block is held.
         modes: highest m and n of the static series.
         dynamic_modes: highest m and n that move with inertia and damping; the others follow at once.
+        side_modes: highest m and n that resolve clamped sides.
         order: how many Ritz vectors per direction each moving wavenumber has.
         refinement: cuts every thin layer into this many.
 
@@ -51,6 +53,7 @@ class WaveSolid:
         support: Support | str = Support.BASE,
         modes: tuple[int, int] = (128, 128),
         dynamic_modes: tuple[int, int] = (32, 32),
+        side_modes: tuple[int, int] = SIDE_MODES,
         order: int = 3,
         refinement: int = 1,
     ) -> None:
@@ -60,6 +63,7 @@ class WaveSolid:
         self.layer_names = tissue.layer_names
         self._series = Series(size, modes)
         self._moving = Series(size, (min(modes[0], dynamic_modes[0]), min(modes[1], dynamic_modes[1])))
+        self._clamps = Series(size, (min(modes[0], side_modes[0]), min(modes[1], side_modes[1])))
         self._order = order
         self._refinement = refinement
         shape = self._series.kx.size, self._series.ky.size, len(tissue.layers)
@@ -76,6 +80,14 @@ class WaveSolid:
     def _layers_s(self) -> ThinLayers:
         return horizontal_shear(self.tissue, base_held=self.support.base_held, refinement=self._refinement)
 
+    @cached_property
+    def _sides(self) -> ClampedSides | None:
+        return (
+            ClampedSides(self._layers_wv, self._layers_s, self._clamps)
+            if self.support.sides_clamped
+            else None
+        )
+
     @property
     def modes(self) -> tuple[int, int]:
         """Highest m and n of the static series."""
@@ -86,7 +98,8 @@ class WaveSolid:
         """Amplitudes solved for by the loads so far: wavenumbers they reach times unknowns through the thickness."""
         across = int(np.isfinite(self._compliance_wv[..., 0, 0, 0]).sum()) * self._layers_wv.size
         aside = int(np.isfinite(self._compliance_s[..., 0, 0, 0]).sum())
-        return across + (aside * self._layers_s.size if aside else 0)
+        clamps = self._sides.dofs if self._sides is not None else 0
+        return across + (aside * self._layers_s.size if aside else 0) + clamps
 
     @property
     def longest_step(self) -> float:
@@ -133,19 +146,19 @@ class WaveSolid:
     def amplitudes(self, state: WaveState, layer: str | None = None) -> FloatArray:
         """Return the series of a face's displacement (x, y, z) [m], shape (3, M + 1, N + 1)."""
         face = self.tissue.index(layer)
-        table = np.zeros((3, self.modes[0] + 1, self.modes[1] + 1))
+        table = np.zeros((3, *self._series.shape))
         for press in state.load:
             table += press.force * self._unit_response(press.with_force(1.0))[face]
         if state.oscillators:
-            rows, columns = self._moving.kx.size, self._moving.ky.size
-            table[:, :rows, :columns] = self._moving_amplitudes(state, face)
+            for waves in self._off_balance(state):
+                table[:, : waves.shape[2], : waves.shape[3]] += waves[face]
         return table
 
     # What follows at once -------------------------------------------------------------------------------------
 
     def _response_to_unit_press(self, press: Press) -> FloatArray:
         """Return every face's static series under one press, shape (layers, 3, M + 1, N + 1)."""
-        across, along, side, kx, ky = _polarised(press, self._series)
+        across, along, side = _polarised(press, self._series)
         drags = press.tilt > 0
         self._fill(self._compliance_wv, self._layers_wv, _audible(across) | _audible(along))
         compliance = np.nan_to_num(self._compliance_wv)
@@ -157,8 +170,11 @@ class WaveSolid:
             w = w + compliance[..., 0, 1] * along[..., None]
             v = v + compliance[..., 1, 1] * along[..., None]
             s = np.nan_to_num(self._compliance_s[..., 0, 0]) * side[..., None]
-        response = np.stack([kx * v - ky * s, ky * v + kx * s, w])
-        return np.ascontiguousarray(np.moveaxis(response, 3, 0))
+        if self._sides is not None:
+            added = self._sides.under_load(across, along, side)
+            for waves, more in zip((w, v, s), added, strict=True):
+                waves[: more.shape[0], : more.shape[1]] += more
+        return _turned_to_axes(w, v, s, self._series)
 
     def _fill(self, table: FloatArray, layers: ThinLayers, wanted: np.ndarray) -> None:
         missing = wanted & np.isnan(table[:, :, 0, 0, 0])
@@ -184,7 +200,8 @@ class WaveSolid:
 
     def _oscillators(self, layers: ThinLayers, wanted: np.ndarray) -> Oscillators:
         distinct, places = _distinct(self._moving, wanted, self.tissue)
-        return ritz_oscillators(layers, distinct, self._order).gathered(places)
+        found = ritz_oscillators(layers, distinct, self._order, everywhere=self._sides is not None)
+        return found.gathered(places)
 
     def moving_forces(self, load: Load) -> tuple[FloatArray, FloatArray]:
         """Return the traction's amplitudes [Pa] on the groups of `oscillators_wv`, shape (J, 2), and `_s`, (J', 1)."""
@@ -192,7 +209,7 @@ class WaveSolid:
         wv = np.zeros((rows, columns, 2))
         s = np.zeros((rows, columns))
         for press in load:
-            across, along, side, _, _ = self._unit_polarised(press.with_force(1.0))
+            across, along, side = self._unit_polarised(press.with_force(1.0))
             wv[..., 0] += press.force * across
             wv[..., 1] += press.force * along
             s += press.force * side
@@ -205,16 +222,34 @@ class WaveSolid:
         shapes: FloatArray = (along_x[:, :, None] * along_y[:, None, :]).reshape(len(points), -1)
         return shapes
 
-    def _moving_amplitudes(self, state: WaveState, face: int) -> FloatArray:
+    def _off_balance(self, state: WaveState) -> list[FloatArray]:
+        """Return what a state has beyond the equilibrium with its load, as parts to add up; see `_turned_to_axes`."""
+        families = (self.oscillators_wv, self.oscillators_s)
+        across, aside = (
+            family.read(now - family.equilibrium(held))
+            for family, now, held in zip(
+                families, state.oscillators, self.moving_forces(state.load), strict=True
+            )
+        )
         rows, columns = self._moving.kx.size, self._moving.ky.size
-        kx, ky = _directions(self._moving)
-        w, v = np.zeros((rows, columns)), np.zeros((rows, columns))
-        read = self.oscillators_wv.read(state.oscillators[0]).reshape(rows - 1, columns - 1, -1, 2)
-        w[1:, 1:], v[1:, 1:] = read[:, :, face, 0], read[:, :, face, 1]
-        aside = np.zeros(rows * columns)
-        aside[1:] = self.oscillators_s.read(state.oscillators[1])[:, face]
-        s = aside.reshape(rows, columns)
-        return np.stack([kx[..., 0] * v - ky[..., 0] * s, ky[..., 0] * v + kx[..., 0] * s, w])
+        w, v = np.zeros((2, rows, columns, across.shape[1] // 2))
+        read = across.reshape(rows - 1, columns - 1, -1, 2)
+        w[1:, 1:], v[1:, 1:] = read[..., 0], read[..., 1]
+        s = np.zeros((rows, columns, aside.shape[1]))
+        s.reshape(rows * columns, -1)[1:] = aside
+        if self._sides is None:
+            return [_turned_to_axes(w, v, s, self._moving)]
+        faces, added = list(self._layers_s.faces), self._sides.under_slide(v, s)
+        return [
+            _turned_to_axes(w[..., faces], v[..., faces], s[..., faces], self._moving),
+            _turned_to_axes(added[0], added[1], added[2], self._clamps),
+        ]
+
+
+def _turned_to_axes(w: FloatArray, v: FloatArray, s: FloatArray, series: Series) -> FloatArray:
+    """Turn W, V and S, shape (M + 1, N + 1, faces), into u_x, u_y, u_z, shape (faces, 3, M + 1, N + 1)."""
+    kx, ky = _directions(series)
+    return np.ascontiguousarray(np.moveaxis(np.stack([kx * v - ky * s, ky * v + kx * s, w]), 3, 0))
 
 
 def _directions(series: Series) -> tuple[FloatArray, FloatArray]:
@@ -225,10 +260,8 @@ def _directions(series: Series) -> tuple[FloatArray, FloatArray]:
     return kx / k, ky / k
 
 
-def _polarised(
-    press: Press, series: Series
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return the traction's amplitudes [Pa] across, along and beside each wave vector, and the directions."""
+def _polarised(press: Press, series: Series) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the traction's amplitudes [Pa] across the face, along each wave vector and beside it."""
     forces = modal_forces(press, series)
     a, b = series.size
     norm = np.full(forces.shape[1:], 4 / (a * b))
@@ -239,7 +272,7 @@ def _polarised(
     along = kx[..., 0] * fx + ky[..., 0] * fy
     along[0, :] = along[:, 0] = 0.0  # without a sine of its own such a wave has no in-plane part along it
     side = kx[..., 0] * fy - ky[..., 0] * fx
-    return fz, along, side, kx, ky
+    return fz, along, side
 
 
 def _audible(amplitudes: FloatArray) -> np.ndarray:
