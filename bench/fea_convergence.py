@@ -1,4 +1,4 @@
-"""Print how fine the finite elements are: `python bench/fea_convergence.py [--fine]`.
+"""Print how fine the finite elements are.
 
 First table: one block on three nested meshes, with Richardson's limit. Second: the default mesh against it
 refined once (8 times the elements), for the supports, tools and moduli of the comparison; `--fine` takes
@@ -7,7 +7,7 @@ minutes and, with SciPy's solver, gigabytes, so it wants the extra `trocar[pardi
 
 from __future__ import annotations
 
-import sys
+import argparse
 import time
 from math import isnan
 
@@ -42,6 +42,11 @@ def skin(moduli: tuple[float, ...], poisson_ratio: float, fat: float) -> Tissue:
 
 def main() -> None:
     """Print both tables."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--fine", action="store_true", help="the second table too")
+    choice = parser.parse_args()
     press = Press(x=0.03, y=0.03, radius=0.004, force=0.1)
     print("three nested meshes, 0.1 N on 8 mm, skin 1000/500/10 kPa, fat 10 mm")
     print(f"{'support':12} {'layer':10} {'dofs':>20}  [mm] coarse, medium, fine, limit; order; error")
@@ -54,7 +59,7 @@ def main() -> None:
                 f"{support:12} {name:10} {'/'.join(map(str, dofs)):>20}  {values}; {order}; "
                 f"{100 * result.uncertainty / result.values[-1]:.3f} %"
             )
-    if "--fine" not in sys.argv[1:]:
+    if not choice.fine:
         return
     print("\ndefault mesh against it refined once, [%] of each layer's largest deflection")
     for support in ("base", "edges+base", "edges"):

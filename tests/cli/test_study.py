@@ -91,7 +91,7 @@ def test_json_alone_on_stdout(app, asked, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--diameter-mm", "50"], "footprint wholly on the block"),
+        (["--diameter-mm", "50"], "diameter of the tool: expected from 0.06 to 42 mm"),
         (["--diameter-mm", "-1"], "finite number above 0, got -1.0"),
         (["--small-n", "nan"], "finite number above 0, got nan"),
         (["--small-n", "9"], "at most the peak"),

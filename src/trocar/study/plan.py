@@ -8,6 +8,7 @@ from math import radians
 from trocar.errors import InputError
 from trocar.model import Support
 from trocar.study.cases.experiment import Case, case_from_tissue
+from trocar.study.cases.quantity import LEAST_TOOL_RATIO
 from trocar.study.cases.tool import Tool
 from trocar.tissues.catalogue import tissue as preset
 from trocar.units import MILLIMETRE
@@ -15,6 +16,7 @@ from trocar.units import MILLIMETRE
 BLOCK = (60 * MILLIMETRE, 60 * MILLIMETRE)  # Table 1 of the paper
 RATE = 0.05  # [N/s], section 5.2
 PERIOD = 2.5  # [s] over 200 s this gives the 81 samples that the paper's t critical implies
+PAIR = (0.35, 0.65)  # of the block's length: where two tools stand
 TAP = 0.01  # [s] to the peak and again back, for the comparison in time
 
 
@@ -46,7 +48,14 @@ class Plan:
     def __post_init__(self) -> None:
         if not 0 < self.small <= self.peak:
             raise InputError(
-                "study: small force", f"above 0 and at most the peak, {self.peak:g} N", self.small
+                "study: small load", f"above 0 and at most the peak, {self.peak:g} N", self.small
+            )
+        least, most = LEAST_TOOL_RATIO * max(BLOCK), 2 * min(PAIR) * BLOCK[0]
+        if not least <= self.diameter <= most:
+            raise InputError(
+                "study: diameter of the tool",
+                f"from {least / MILLIMETRE:g} to {most / MILLIMETRE:g} mm, so that two of them fit on the block",
+                self.diameter / MILLIMETRE,
             )
 
     def central(self, peak: float, support: Support | None = None) -> Case:
@@ -60,7 +69,7 @@ class Plan:
     def pair(self) -> Case:
         """Return two tools, left and right of the middle."""
         a, b = BLOCK
-        tools = tuple(replace(self._tool(self.small), position=(share * a, b / 2)) for share in (0.35, 0.65))
+        tools = tuple(replace(self._tool(self.small), position=(share * a, b / 2)) for share in PAIR)
         return self._case("two tools", tools)
 
     def tap(self) -> Case:

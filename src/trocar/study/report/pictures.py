@@ -61,8 +61,8 @@ def pictures(study: Study) -> Mapping[str, Picture]:
         Picture(
             name="supports",
             alt=supports_alt(study.supports),
-            caption="Sides that are clamped are not sine waves: where they matter, the wave models hold the block "
-            "too loosely.",
+            caption="Clamped sides are no sine waves: tractions on them hold the layered waves, and the membranes are "
+            "fitted to the result.",
             figure=supports_figure(study.supports),
         ),
         Picture(
