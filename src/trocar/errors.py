@@ -34,5 +34,8 @@ class SolverError(TrocarError):
 
 
 def _shown(value: object, limit: int = 80) -> str:
-    text = repr(value)
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):  # an integer of 5000 digits, a deep nest
+        return f"a {type(value).__name__} too large to print"
     return text if len(text) <= limit else f"{text[: limit - 3]}..."

@@ -102,6 +102,7 @@ BROKEN = {
     "value is not a number": (thickness(value="nan"), r"value: expected a finite number, got nan"),
     "value is infinite": (thickness(value="inf"), r"value: expected a finite number, got inf"),
     "value is beyond floats": (thickness(value="1" + "0" * 400), r"value: expected a finite number"),
+    "value is beyond printing": (thickness(value="0x" + "f" * 9000), "got a int too large to print"),
     "negative thickness": (
         thickness(value="-1"),
         r"value: expected a finite number from 1e-06 to 1 m, got -1",

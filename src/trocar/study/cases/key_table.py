@@ -25,15 +25,6 @@ class Words:
 NOTHING = Words("nothing")
 
 
-def shown(value: object) -> object:
-    """Return `value`, or words for one that cannot be printed: an integer of 5000 digits, a deep nest."""
-    try:
-        repr(value)
-    except (ValueError, RecursionError):
-        return Words(f"a {type(value).__name__} too large to print")
-    return value
-
-
 def printable(text: str) -> str:
     """Return text fit for one line of a message, control characters and surrogates escaped."""
     return text if text.isprintable() and text else ascii(text)
@@ -60,7 +51,7 @@ class Table:
 
     def refuse(self, key: str, expected: str, got: object, advice: str = "") -> InputError:
         """Return the error that says what is wrong with a key."""
-        return InputError(self.where(key), expected, shown(got), advice)
+        return InputError(self.where(key), expected, got, advice)
 
     def only(self, keys: Iterable[str], unbuilt: Mapping[str, str] | None = None) -> None:
         """Refuse keys that are not known, suggesting the closest.
