@@ -4,6 +4,7 @@ python bench/agreement.py base            all nine places (three and their mirro
 python bench/agreement.py edges+base --central
 python bench/agreement.py edges --central
 python bench/agreement.py edges+base --central --fat-mm 14 --dermis-kpa 35 --dermis-kpa 500
+python bench/agreement.py edges --near-side    one tissue, a 6 mm tool ever closer to one side and to two
 """
 
 import argparse
@@ -11,8 +12,11 @@ import sys
 
 import numpy as np
 
-from trocar.model import Support
-from trocar.study.sweep_of_agreement import DERMIS, FAT, PLACES, agreements
+from trocar.model import Press, Support
+from trocar.reference.fea import FEASolid
+from trocar.study.sweep_of_agreement import DERMIS, FAT, PLACES, SIZE, agreements, largest, skin_like
+from trocar.units import MILLIMETRE
+from trocar.waves.solid import WaveSolid
 
 
 def main() -> int:
@@ -22,9 +26,13 @@ def main() -> int:
     )
     parser.add_argument("support", choices=[kind.value for kind in Support])
     parser.add_argument("--central", action="store_true", help="only a tool in the middle")
+    parser.add_argument("--near-side", action="store_true", help="how close a tool may come to a side")
     parser.add_argument("--fat-mm", type=float, action="append", help="thickness; may be repeated")
     parser.add_argument("--dermis-kpa", type=float, action="append", help="modulus; may be repeated")
     choice = parser.parse_args()
+    if choice.near_side:
+        near_side(Support(choice.support))
+        return 0
     fats = tuple(1e-3 * thickness for thickness in choice.fat_mm or ()) or FAT
     dermises = tuple(1e3 * modulus for modulus in choice.dermis_kpa or ()) or DERMIS
     places = PLACES[:1] if choice.central else PLACES
@@ -48,6 +56,28 @@ def main() -> int:
             f"median {100 * np.median(errors):.3f} %, layers {np.round(100 * errors.max(axis=0), 3)}"
         )
     return 0
+
+
+def near_side(support: Support) -> None:
+    """Print the layered waves' difference by the distance of the tool's rim from a side and from a corner."""
+    tissue = skin_like(1e6, 2e5, 1e4, 10 * MILLIMETRE)
+    models = {
+        side_modes: WaveSolid(
+            tissue, size=SIZE, support=support, modes=(160, 160), side_modes=(side_modes,) * 2
+        )
+        for side_modes in ((48, 80) if support.sides_clamped else (48,))
+    }
+    print("from rim to side, mm | to one or two sides | FEA mm | WaveSolid - FEA, %, by side modes")
+    for gap in (0.0, 0.5, 1.0, 2.0, 4.5, 7.0, 12.0):
+        near = 3 * MILLIMETRE + gap * MILLIMETRE
+        for sides, place in ((1, (near, SIZE[1] / 2)), (2, (near, near))):
+            press = Press(x=place[0], y=place[1], radius=3 * MILLIMETRE, force=1.0)
+            reference = largest(FEASolid(tissue, size=SIZE, support=support, around=(press,)), press)
+            differences = " | ".join(
+                f"{side_modes}: " + " ".join(f"{100 * e:+.2f}" for e in largest(model, press) / reference - 1)
+                for side_modes, model in models.items()
+            )
+            print(f"{gap:4.1f} | {sides} | {1e3 * reference[0]:.4f} | {differences}", flush=True)
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ from trocar.tissues.tissue import Tissue
 from trocar.waves.clamped import SIDE_MODES, ClampedSides
 from trocar.waves.footprint import transform
 from trocar.waves.series import Series
-from trocar.waves.stack import Coupling, Stack, derived_stack
+from trocar.waves.stack import Coupling, Stack, derived_stack, sheet_compliance
 from trocar.waves.thin_layer import ThinLayers, Wavenumbers, horizontal_shear, vertical_and_along
 
 RADII = (2.5e-3, 3e-3, 4e-3, 6e-3)  # [m] tools of 5, 6, 8 and 12 mm
@@ -232,20 +232,7 @@ def _coefficients(stack: Stack) -> FloatArray:
 
 def _response(values: FloatArray, layers: int, at: Wavenumbers) -> FloatArray:
     """Return each sheet's amplitude per unit pressure amplitude on the top one, shape (J, layers)."""
-    tension, bending, coupling = values[:layers], values[layers : 2 * layers], values[2 * layers :]
-    k2 = at.k[:, None] ** 2
-    diagonal = bending * k2**2 + tension * k2
-    flexibility = 1 / (diagonal[:, -1] + coupling[-1])  # of the sheets below, seen from above
-    below = [flexibility]
-    for i in range(layers - 2, -1, -1):
-        flexibility = 1 / (diagonal[:, i] + 1 / (flexibility + 1 / coupling[i]))
-        below.append(flexibility)
-    below.reverse()
-    response = [below[0]]
-    for i in range(1, layers):
-        passed = below[i] / (below[i] + 1 / coupling[i - 1])
-        response.append(response[-1] * passed)
-    return np.stack(response, axis=1)
+    return sheet_compliance(values[:layers], values[layers : 2 * layers], values[2 * layers :], at.k)
 
 
 def _fit_rates(tissue: Tissue, stack: Stack, target: _Target) -> Stack:

@@ -14,8 +14,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isfinite
 
+import numpy as np
+
 from trocar.errors import InputError
-from trocar.model import Support
+from trocar.model import FloatArray, Support
 from trocar.tissues.layer import Layer
 from trocar.tissues.tissue import Tissue
 
@@ -95,6 +97,45 @@ class Stack:
                 f"{len(self.sheets)}, one below each sheet (the last is the foundation)",
                 len(self.couplings),
             )
+
+    def compliance(self, k: FloatArray) -> FloatArray:
+        """Return every sheet's static amplitude per unit amplitude of pressure on the top one [m/Pa].
+
+        Args:
+            k: wavenumbers [1/m], shape (J,), of no direction: a sheet's tension is the mean of its two.
+
+        Returns:
+            Shape (J, sheets).
+        """
+        tension = np.array([0.5 * (sheet.tension_x + sheet.tension_y) for sheet in self.sheets])
+        bending = np.array([sheet.bending for sheet in self.sheets])
+        return sheet_compliance(tension, bending, np.array([bed.stiffness for bed in self.couplings]), k)
+
+
+def sheet_compliance(
+    tension: FloatArray, bending: FloatArray, coupling: FloatArray, k: FloatArray
+) -> FloatArray:
+    """Return each sheet's static amplitude per unit amplitude of pressure on the top one [m/Pa], shape (J, n).
+
+    Args:
+        tension: of each of n sheets, top first [N/m].
+        bending: stiffness of each [N m].
+        coupling: of the bed below each [N/m3].
+        k: wavenumbers [1/m], shape (J,).
+    """
+    k2 = k[:, None] ** 2
+    own = bending * k2**2 + tension * k2
+    flexibility = 1 / (own[:, -1] + coupling[-1])  # of the sheets below, seen from above
+    below = [flexibility]
+    for i in range(len(tension) - 2, -1, -1):
+        flexibility = 1 / (own[:, i] + 1 / (flexibility + 1 / coupling[i]))
+        below.append(flexibility)
+    below.reverse()
+    response = [below[0]]
+    for i in range(1, len(tension)):
+        passed = below[i] / (below[i] + 1 / coupling[i - 1])
+        response.append(response[-1] * passed)
+    return np.stack(response, axis=1)
 
 
 def derived_stack(tissue: Tissue, support: Support) -> Stack:
