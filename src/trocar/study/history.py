@@ -8,15 +8,22 @@ from dataclasses import dataclass
 from time import process_time
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
-from trocar.model import FloatArray, State
+from trocar.errors import InputError
+from trocar.model import FloatArray, Load, State
 from trocar.study.cases.experiment import Case
 from trocar.study.deflection import deflections, search_points
 from trocar.study.linear_range import LinearRange, linear_range
 from trocar.study.models import AnyModel
+from trocar.study.rigid import RigidTips
 from trocar.study.stated_range import departures
+from trocar.waves.membrane import WaveMembrane
+from trocar.waves.solid import WaveSolid
 
 Progress = Callable[[float], None]
+_FORCES = 14  # of one rigid tip that are computed; depth is a smooth power of the force in between
+_FORCE_RATIO = 300.0  # from the largest of them to the smallest
 _MOST_STEPS = 4000  # in one case: a longer one takes longer steps, its load being slower too
 
 
@@ -75,10 +82,15 @@ def run(
     model = build(case)
     times = case.sample_times()
     layers = case.tissue.layer_names
-    follow = _moving if case.sampling.dynamic else _quasi_static
-    depths, setup, furthest = follow(case, model, times, progress)
-    done = process_time()
     peaks = tuple(tool.press(tool.peak) for tool in case.tools)
+    furthest: State | None = None
+    if case.rigid:
+        depths, setup, peaks = _rigid(case, name, model, times, progress)
+    elif case.sampling.dynamic:
+        depths, setup, furthest = _moving(case, model, times, progress)
+    else:
+        depths, setup = _quasi_static(case, model, times, progress)
+    done = process_time()
     fit_error = getattr(model, "fit_error", None) or 0.0
     return History(
         model=name,
@@ -96,7 +108,7 @@ def run(
 
 def _quasi_static(
     case: Case, model: AnyModel, times: FloatArray, progress: Progress
-) -> tuple[FloatArray, float, None]:
+) -> tuple[FloatArray, float]:
     """Superpose each tool's response to 1 N: the models are linear, so equilibria add and scale."""
     load = case.load_at(0.0)
     points = search_points(case.size, load)
@@ -108,11 +120,63 @@ def _quasi_static(
     setup = process_time()
     forces = np.array([[press.force for press in case.load_at(t)] for t in times])
     if len(units) == 1:
-        return np.outer(units[0].max(axis=1), forces[:, 0]), setup, None
+        return np.outer(units[0].max(axis=1), forces[:, 0]), setup
     depths = np.empty((len(layers), len(times)))
     for i, at in enumerate(forces):
         depths[:, i] = np.tensordot(at, np.stack(units), 1).max(axis=1)
-    return depths, setup, None
+    return depths, setup
+
+
+def _rigid(
+    case: Case, name: str, model: AnyModel, times: FloatArray, progress: Progress
+) -> tuple[FloatArray, float, Load]:
+    """Press rigid tips to every distinct set of forces; return too what the linear range is judged by."""
+    if not isinstance(model, WaveSolid | WaveMembrane):
+        raise InputError("models", "wave models with a rigid tip, wave-solid or wave-membrane", name)
+    tips = RigidTips(model, case.tools)
+    setup = process_time()
+    points = search_points(case.size, case.load_at(0.0))
+    layers = len(case.tissue.layer_names)
+    totals = np.array([[tool.force(t) for tool in case.tools] for t in times])
+    distinct, places = np.unique(totals, axis=0, return_inverse=True)
+    forces = distinct if len(case.tools) > 1 else _spread(distinct[:, 0])[:, None]
+    depths = np.zeros((len(forces), layers))
+    if tips.linear:
+        depths = np.outer(forces[:, 0], tips.press(np.ones(1)).deflections(points))
+    else:
+        for i in range(len(forces) - 1, -1, -1):  # from the deepest, which tells where the next will touch
+            if forces[i].any():
+                depths[i] = tips.press(forces[i]).deflections(points)
+            progress(1 - i / len(forces))
+    if len(case.tools) == 1:
+        depths = _between(forces[:, 0], depths, distinct[:, 0])
+    peaks = tips.load(np.array([tool.peak for tool in case.tools]))
+    return depths[places.ravel()].T, setup, peaks
+
+
+def _spread(forces: FloatArray) -> FloatArray:
+    """Return few forces that span those of one tool, ascending."""
+    above = forces[forces > 0]
+    if len(above) <= _FORCES:
+        return above
+    return np.geomspace(max(above.min(), above.max() / _FORCE_RATIO), above.max(), _FORCES)
+
+
+def _between(known: FloatArray, depths: FloatArray, forces: FloatArray) -> FloatArray:
+    """Interpolate depths, shape (n, layers), in the logarithms of force and depth; a power of the force below."""
+    result = np.zeros((len(forces), depths.shape[1]))
+    above = forces > 0
+    logs = np.log(depths)
+    if len(known) > 1:
+        curve = PchipInterpolator(np.log(known), logs, extrapolate=False)
+        low = np.log(np.minimum(forces[above] / known[0], 1.0))
+        power = (logs[1] - logs[0]) / np.log(known[1] / known[0])
+        result[above] = np.exp(
+            curve(np.log(np.clip(forces[above], known[0], known[-1]))) + np.outer(low, power)
+        )
+    else:
+        result[above] = np.outer(forces[above] / known[0], depths[0])
+    return result
 
 
 def _moving(

@@ -10,7 +10,7 @@ surface is not seen by a membrane, which moves only up and down.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from math import inf
 
 import numpy as np
@@ -166,6 +166,26 @@ class WaveMembrane:
         table = np.zeros(self._series.shape)
         table[1:, 1:] = self.oscillators.read(oscillators)[:, place].reshape(self.modes)
         return table
+
+    @property
+    def series(self) -> Series:
+        """The waves."""
+        return self._series
+
+    @cached_property
+    def wave_compliance(self) -> FloatArray:
+        """Every face's static amplitude per unit amplitude of pressure [m/Pa], shape (faces, M + 1, N + 1)."""
+        result = np.zeros((len(self.layer_names), *self._series.shape))
+        result[:, 1:, 1:] = np.moveaxis(self.static_compliance(), 2, 0)
+        return result
+
+    def held_back(self, across: FloatArray) -> None:
+        """Return nothing: no clamps act on sheets."""
+        return
+
+    def compliance(self, k: FloatArray, *, finest: float) -> FloatArray:
+        """Return every face's static amplitude per unit of pressure's [m/Pa], (J,) to (J, faces); no direction."""
+        return self.stack.compliance(k)
 
     def modal_energy(self, state: WaveState) -> FloatArray:
         """Return kinetic plus elastic energy of each mode (m, n), all layers together [J], shape (M, N)."""

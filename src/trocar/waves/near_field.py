@@ -25,7 +25,8 @@ from trocar.model import FloatArray
 Compliance = Callable[[FloatArray], FloatArray]
 
 _ENDS = 6.5  # highest wavenumber times the pad's width: exp(-6.5^2/2) is 7e-10
-_PER_DECAY = 40  # rows of the table to the narrower of the two widths: linear in between to 1e-4
+_PER_DECAY = 40  # rows of the table to the pad's width, and later to the distance: linear in between to 1e-4
+_EVEN = 3.0  # widths of a pad within which rows lie evenly
 _POINTS = 16  # Gauss points to a panel of the integral
 
 
@@ -34,28 +35,23 @@ class NearField:
     """Static deflection around a pad, without what the window lets through.
 
     Attributes:
-        spacing: between rows of the table [m].
-        table: K at 0, spacing, 2 spacing ... [m/N], shape (rows, faces); zero beyond.
+        radii: of the table's rows [m], ascending from 0, shape (rows,).
+        table: K there [m/N], shape (rows, faces); zero beyond.
     """
 
-    spacing: float
+    radii: FloatArray
     table: FloatArray
-
-    @property
-    def reach(self) -> float:
-        """Distance of the last row [m]."""
-        return self.spacing * (len(self.table) - 1)
 
     def at(self, distances: FloatArray) -> FloatArray:
         """Return K [m/N] at distances [m], linear between rows; shape (...) to (..., faces)."""
-        places = np.minimum(np.asarray(distances) / self.spacing, len(self.table) - 1)
-        row = np.minimum(places.astype(np.int64), len(self.table) - 2)
-        share = (places - row)[..., None]
-        result: FloatArray = (1 - share) * self.table[row] + share * self.table[row + 1]
-        return np.where((distances <= self.reach)[..., None], result, 0.0)
+        faces = [np.interp(distances, self.radii, face, right=0.0) for face in self.table.T]
+        result: FloatArray = np.stack(faces, axis=-1)
+        return result
 
 
-def near_field(compliance: Compliance, *, pad: float, window: float, reach: float) -> NearField:
+def near_field(
+    compliance: Compliance, *, pad: float, window: float, reach: float, first: float = 0.0
+) -> NearField:
     """Tabulate the near field of a tissue.
 
     Args:
@@ -64,6 +60,8 @@ def near_field(compliance: Compliance, *, pad: float, window: float, reach: floa
         pad: width p of the pad's Gaussian, one standard deviation [m].
         window: width s of the window [m].
         reach: how far the table goes [m].
+        first: wavenumber the integral begins at [1/m]: a block has no longer waves, and one with a free base would
+            answer them without bound.
 
     Raises:
         InputError: the pad is not narrower than the window, or a length is not above 0.
@@ -72,20 +70,20 @@ def near_field(compliance: Compliance, *, pad: float, window: float, reach: floa
         raise InputError("near field: pad", f"a width above 0 and below the window's, {window:g} m", pad)
     if not reach > 0:
         raise InputError("near field: reach", "a length above 0 [m]", reach)
-    spacing = pad / _PER_DECAY
-    radii = spacing * np.arange(int(np.ceil(reach / spacing)) + 1)
-    k, weights = _quadrature(_ENDS / pad, radii[-1])
+    even = np.arange(0.0, _EVEN, 1 / _PER_DECAY)
+    growing = np.geomspace(_EVEN, max(reach / pad, 2 * _EVEN), max(2, int(_PER_DECAY * np.log(reach / pad))))
+    radii = pad * np.concatenate([even, growing])
+    k, weights = _quadrature(first, _ENDS / pad, radii[-1])
     left_out = np.exp(-0.5 * (pad * k) ** 2) - np.exp(-0.5 * (window * k) ** 2)
     spectrum = (weights * left_out * k / (2 * np.pi))[:, None] * compliance(k)
-    return NearField(spacing=spacing, table=np.array([j0(k * radius) @ spectrum for radius in radii]))
+    return NearField(radii=radii, table=np.array([j0(k * radius) @ spectrum for radius in radii]))
 
 
-def _quadrature(last: float, furthest: float) -> tuple[FloatArray, FloatArray]:
-    """Return nodes and weights up to the last wavenumber: two waves of the furthest J0 to a panel, fine near zero."""
+def _quadrature(first: float, last: float, furthest: float) -> tuple[FloatArray, FloatArray]:
+    """Return nodes and weights between two wavenumbers: two waves of the furthest J0 to a panel, fine near zero."""
     panels = max(24, int(np.ceil(last * furthest / (4 * np.pi))))
-    edges = np.unique(
-        np.concatenate([np.linspace(0, last, panels + 1), last / panels * 0.5 ** np.arange(1, 8)])
-    )
+    even, fine = np.linspace(0, last, panels + 1), last / panels * 0.5 ** np.arange(1, 8)
+    edges = np.unique(np.maximum(np.concatenate([even, fine]), first))
     nodes, gauss = np.polynomial.legendre.leggauss(_POINTS)
     half = 0.5 * np.diff(edges)
     k = (edges[:-1, None] + half[:, None] * (nodes + 1)).ravel()

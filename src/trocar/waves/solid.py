@@ -25,6 +25,7 @@ from trocar.waves.series import Series
 from trocar.waves.state import WaveState, require_step
 from trocar.waves.thin_layer import ThinLayers, Wavenumbers, horizontal_shear, vertical_and_along
 
+_FINE = 0.4  # first element in widths of a pad: its waves of 3/width are then resolved to 1e-3
 _SILENT = 1e-13  # modal force relative to the largest: below it is rounding (a central tool's even modes)
 
 
@@ -141,6 +142,41 @@ class WaveSolid:
         result[:, 0] = self._series.along_x(along_x, points) if along_x.any() else 0.0
         result[:, 1] = self._series.along_y(along_y, points) if along_y.any() else 0.0
         result[:, 2] = self._series.vertical(across, points)
+        return result
+
+    @property
+    def series(self) -> Series:
+        """The waves of the static answer."""
+        return self._series
+
+    @cached_property
+    def wave_compliance(self) -> FloatArray:
+        """Every face's static W per unit amplitude of pressure [m/Pa], shape (faces, M + 1, N + 1); clamps left out."""
+        wanted = np.ones(self._series.shape, dtype=bool)
+        wanted[0, :] = wanted[:, 0] = False
+        self._fill(self._compliance_wv, self._layers_wv, wanted)
+        return np.ascontiguousarray(np.moveaxis(np.nan_to_num(self._compliance_wv[..., 0, 0]), 2, 0))
+
+    def held_back(self, across: FloatArray) -> FloatArray | None:
+        """Return what clamped sides add to W under a pressure's waves [Pa]: (faces, M' + 1, N' + 1), M' <= M [m]."""
+        if self._sides is None:
+            return None
+        none = np.zeros_like(across)
+        added: FloatArray = np.moveaxis(self._sides.under_load(across, none, none)[0], 2, 0)
+        return added
+
+    def compliance(self, k: FloatArray, *, finest: float) -> FloatArray:
+        """Return every face's static W per unit amplitude of pressure [m/Pa], far from the sides, in no direction.
+
+        Args:
+            k: wavenumbers [1/m], shape (J,).
+            finest: width of the smallest pad that presses [m].
+
+        Returns:
+            Shape (J, faces).
+        """
+        layers = vertical_and_along(self.tissue, base_held=self.support.base_held, finest=_FINE * finest)
+        result: FloatArray = surface_compliance(layers, Wavenumbers(k, 0.5 * k**2, 0.5 * k**2))[:, :, 0, 0]
         return result
 
     def amplitudes(self, state: WaveState, layer: str | None = None) -> FloatArray:

@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from math import inf
 
 import numpy as np
 
@@ -97,26 +98,31 @@ class ThinLayers:
         return self.components * self.faces[layer] + component
 
 
-def vertical_and_along(tissue: Tissue, *, base_held: bool, refinement: int = 1) -> ThinLayers:
+def vertical_and_along(
+    tissue: Tissue, *, base_held: bool, refinement: int = 1, finest: float = inf
+) -> ThinLayers:
     """Assemble the matrices of W and V (components 0 and 1).
 
     Args:
         tissue: the layers.
         base_held: whether the lower face cannot move.
         refinement: every element is cut into this many.
+        finest: length of the first element, at most [m]; for waves shorter than a tool makes.
     """
-    return _assemble(tissue, _element_wv, 2, base_held=base_held, refinement=refinement)
+    lengths = element_lengths(tissue, finest)
+    return _assemble(tissue, _element_wv, 2, lengths, base_held=base_held, refinement=refinement)
 
 
 def horizontal_shear(tissue: Tissue, *, base_held: bool, refinement: int = 1) -> ThinLayers:
     """Assemble the matrices of S; arguments as in `vertical_and_along`."""
-    return _assemble(tissue, _element_s, 1, base_held=base_held, refinement=refinement)
+    lengths = element_lengths(tissue)
+    return _assemble(tissue, _element_s, 1, lengths, base_held=base_held, refinement=refinement)
 
 
-def element_lengths(tissue: Tissue) -> list[FloatArray]:
+def element_lengths(tissue: Tissue, finest: float = inf) -> list[FloatArray]:
     """Return the elements' lengths [m] of each layer, top down: growing with depth, capped inside thick layers."""
     depth, lengths = 0.0, []
-    first = _TOP * min(tissue.layers[0].thickness, _SHALLOW * tissue.thickness)
+    first = min(_TOP * min(tissue.layers[0].thickness, _SHALLOW * tissue.thickness), finest)
     cap = max(layer.thickness for layer in tissue.layers) / _PER_LAYER
     for layer in tissue.layers:
         left, own = layer.thickness, []
@@ -130,10 +136,15 @@ def element_lengths(tissue: Tissue) -> list[FloatArray]:
 
 
 def _assemble(
-    tissue: Tissue, element: Element, components: int, *, base_held: bool, refinement: int
+    tissue: Tissue,
+    element: Element,
+    components: int,
+    lengths: list[FloatArray],
+    *,
+    base_held: bool,
+    refinement: int,
 ) -> ThinLayers:
-
-    upward = [np.repeat(own / refinement, refinement)[::-1] for own in reversed(element_lengths(tissue))]
+    upward = [np.repeat(own / refinement, refinement)[::-1] for own in reversed(lengths)]
     layers = tissue.layers[::-1]
     elements = [(place, length) for place, own in enumerate(upward) for length in own]
     total = components * (2 * len(elements) + 1)

@@ -16,7 +16,7 @@ import numpy as np
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Support
 from trocar.study.cases import quantity as q
-from trocar.study.cases.tool import Tool
+from trocar.study.cases.tool import Contact, Tool
 from trocar.tissues import Tissue
 
 SAME_TIME = 1e-13  # relative: sums of three times carry a few rounding errors of 1e-16 each
@@ -82,6 +82,11 @@ class Case:
     def peak_force(self) -> float:
         """Largest force of one tool along its axis [N]."""
         return max(tool.peak for tool in self.tools)
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the tools keep their shape; else they are dead loads."""
+        return self.tools[0].contact is Contact.RIGID
 
     def load_at(self, time: float) -> Load:
         """Return one press per tool at `time` [s], always all of them, without force where a tool is away.
@@ -180,7 +185,16 @@ class Case:
                     "move the tool, or take a smaller or less tilted one",
                 )
 
+        if len({tool.contact for tool in self.tools}) > 1:
+            raise InputError(
+                "tool[1].contact",
+                f'"{self.tools[0].contact}", as the first tool',
+                self.tools[1].contact.value,
+            )
+
     def _check_sampling(self) -> None:
+        if self.sampling.dynamic and self.rigid:
+            raise InputError("sampling.dynamic", "false with a rigid tip", True, 'or take contact = "dead"')
         wanted = self.duration / self.sampling.period
         if wanted > q.MOST_SAMPLES:
             raise InputError(

@@ -17,7 +17,7 @@ from trocar.model import Support
 from trocar.study.cases import quantity as q
 from trocar.study.cases.experiment import Case, Sampling, case_from_tissue
 from trocar.study.cases.key_table import NOTHING, Table, Words, printable
-from trocar.study.cases.tool import Tool
+from trocar.study.cases.tool import Contact, Tip, Tool
 from trocar.tissues import Layer, Tissue
 
 __all__ = ["Case", "Sampling", "Tool", "case_from_tissue", "load_case"]
@@ -32,8 +32,6 @@ _FILE_KEYS = {item.name: item.key for item in (q.SIDE, *q.LAYER, q.PRESTRESS, *q
 
 _UNBUILT_LAYER_KEYS = {"prony": "use loss_factor with loss_frequency_hz"}
 _UNBUILT_LAWS = dict.fromkeys(("neo-hookean", "ogden", "fibre"), 'use "linear" and a small force')
-_UNBUILT_TIPS = {"sphere": 'use "flat"; a sphere needs rigid contact, which is not built yet'}
-_UNBUILT_CONTACTS = {"rigid": 'use "dead", a load spread uniformly over the footprint'}
 
 
 def load_case(path: str | os.PathLike[str]) -> Case:
@@ -133,12 +131,14 @@ def _layer(table: Table) -> Layer:
 
 def _tool(table: Table) -> Tool:
     table.only(_TOOL_KEYS)
-    table.choice("tip", ("flat",), default="flat", unbuilt=_UNBUILT_TIPS)
-    table.choice("contact", ("dead",), default="dead", unbuilt=_UNBUILT_CONTACTS)
+    tip = Tip(table.choice("tip", tuple(kind.value for kind in Tip), default=Tip.FLAT.value))
+    contact = Contact(
+        table.choice("contact", tuple(kind.value for kind in Contact), default=Contact.DEAD.value)
+    )
     position = table.pair(q.POSITION)
     numbers = {item.name: table.number(item) for item in q.TOOL}
     try:
-        return Tool(position=position, **numbers)
+        return Tool(position=position, tip=tip, contact=contact, **numbers)
     except InputError as error:
         raise _in_file(table.file, table.path, error) from None
 

@@ -1,8 +1,9 @@
-"""One tool of a case: where it presses and how its force goes up, holds and comes down."""
+"""One tool of a case: where it presses, with what tip, and how its force goes up, holds and comes down."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 from math import cos, hypot, sin
 
 from trocar.errors import InputError
@@ -10,9 +11,23 @@ from trocar.model import Press
 from trocar.study.cases import quantity as q
 
 
+class Tip(StrEnum):
+    """The shape of a tool's end."""
+
+    FLAT = "flat"
+    SPHERE = "sphere"
+
+
+class Contact(StrEnum):
+    """How a tool's force comes to the tissue."""
+
+    DEAD = "dead"  # spread evenly over the footprint, whatever the tissue does
+    RIGID = "rigid"  # by a tip that keeps its shape
+
+
 @dataclass(frozen=True, kw_only=True)
 class Tool:
-    """Describe a flat tool that presses with a dead load.
+    """Describe a tool and its force.
 
     Args:
         diameter: of the tip [m].
@@ -22,9 +37,12 @@ class Tool:
         hold: time at the peak [s].
         tilt: from the surface normal [rad].
         azimuth: of the tilt, from +x towards +y [rad].
+        tip: shape of its end; a sphere has the tool's diameter, and is rigid.
+        contact: how the force comes to the tissue; a rigid tip stands upright.
 
     Raises:
-        InputError: a value is not finite, outside its range, or the ramp is too short or too long to follow.
+        InputError: a value is not finite, outside its range, or does not go with another, or the ramp is too short or
+            too long to follow.
     """
 
     diameter: float
@@ -34,12 +52,21 @@ class Tool:
     hold: float = 0.0
     tilt: float = 0.0
     azimuth: float = 0.0
+    tip: Tip = Tip.FLAT
+    contact: Contact = Contact.DEAD
 
     def __post_init__(self) -> None:
         for item in q.TOOL:
             item.check(f"tool: {item.name}", getattr(self, item.name))
         for coordinate in self.position:
             q.POSITION.check("tool: position", coordinate)
+        if self.tip is Tip.SPHERE and self.contact is Contact.DEAD:
+            raise InputError(
+                "tool: contact", '"rigid" for a sphere', self.contact.value, "a dead load has no shape"
+            )
+        if self.contact is Contact.RIGID and self.tilt > 0:
+            advice = "an inclined tip is not built yet; take a dead load"
+            raise InputError("tool: tilt", "0, upright, for a rigid tip", self.tilt / q.TILT.factor, advice)
         if not q.SHORTEST_RAMP <= self.ramp_time <= q.LONGEST_RAMP:
             raise InputError(
                 "tool: rate",
