@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import ceil
 from typing import Any
 
 from trocar.errors import InputError
@@ -21,6 +22,7 @@ MOST_MEMBRANE_MODES = 128  # membranes answer short waves less than elastic bloc
 _SHARE_LEFT_OUT = (
     0.004  # by the rule's envelope; of a homogeneous block a quarter of it is missing, of skin far less
 )
+_RIGID_HALF_WAVE, _MOST_RIGID_MODES = 1e-3, 128
 _MOST_LEFT_OUT = 0.1  # where MOST_MODES is not enough: 2 % is missing
 NOT_BUILT_YET = ("wave-mesh", "mass-spring", "mesh-free")
 
@@ -44,9 +46,14 @@ def _wave_solid(case: Case) -> AnyModel:
 def series_modes(case: Case) -> tuple[int, int]:
     """Return how many modes a case's smallest tool needs; the rule for a flat tool is an upper bound.
 
+    Under a rigid tip shorter waves are counted otherwise (`waves.pads`), and half waves of a millimetre are enough.
+
     Raises:
         InputError: the tool is too small for the block.
     """
+    if case.rigid:
+        m, n = (min(max(ceil(side / _RIGID_HALF_WAVE), LEAST_MODES), _MOST_RIGID_MODES) for side in case.size)
+        return m, n
     radius = min(tool.diameter / 2 for tool in case.tools)
     wanted = modes_for(radius, Profile.FLAT, case.size, _SHARE_LEFT_OUT)
     least = modes_for(radius, Profile.FLAT, case.size, _MOST_LEFT_OUT)
