@@ -5,6 +5,7 @@ python bench/agreement.py edges+base --central
 python bench/agreement.py edges --central
 python bench/agreement.py edges+base --central --fat-mm 14 --dermis-kpa 35 --dermis-kpa 500
 python bench/agreement.py edges --near-side    one tissue, a 6 mm tool ever closer to one side and to two
+python bench/agreement.py edges --motion       half a sine of 20 ms on the preset skin
 """
 
 import argparse
@@ -14,7 +15,10 @@ import numpy as np
 
 from trocar.model import Press, Support
 from trocar.reference.fea import FEASolid
+from trocar.study.half_sine import half_sine
+from trocar.study.statistics.agreement import nrmse
 from trocar.study.sweep_of_agreement import DERMIS, FAT, PLACES, SIZE, agreements, largest, skin_like
+from trocar.tissues.catalogue import tissue
 from trocar.units import MILLIMETRE
 from trocar.waves.solid import WaveSolid
 
@@ -26,10 +30,14 @@ def main() -> int:
     )
     parser.add_argument("support", choices=[kind.value for kind in Support])
     parser.add_argument("--central", action="store_true", help="only a tool in the middle")
+    parser.add_argument("--motion", action="store_true", help="half a sine in time instead")
     parser.add_argument("--near-side", action="store_true", help="how close a tool may come to a side")
     parser.add_argument("--fat-mm", type=float, action="append", help="thickness; may be repeated")
     parser.add_argument("--dermis-kpa", type=float, action="append", help="modulus; may be repeated")
     choice = parser.parse_args()
+    if choice.motion:
+        motion(Support(choice.support))
+        return 0
     if choice.near_side:
         near_side(Support(choice.support))
         return 0
@@ -58,12 +66,25 @@ def main() -> int:
     return 0
 
 
+def motion(support: Support) -> None:
+    """Print how far the moving layered waves are from finite elements, over the range of the motion."""
+    skin, press = tissue("skin"), Press(x=0.03, y=0.03, radius=3 * MILLIMETRE, force=0.05)
+    models = {
+        "fea": FEASolid(skin, size=SIZE, support=support, around=(press,)),
+        "wave-solid": WaveSolid(skin, size=SIZE, support=support),
+    }
+    curves = half_sine(models, press)
+    print(
+        f"half a sine of 20 ms, 6 mm, {support.value}: NRMSE {100 * nrmse(curves['fea'], curves['wave-solid']):.2f} %"
+    )
+
+
 def near_side(support: Support) -> None:
     """Print the layered waves' difference by the distance of the tool's rim from a side and from a corner."""
-    tissue = skin_like(1e6, 2e5, 1e4, 10 * MILLIMETRE)
+    layers = skin_like(1e6, 2e5, 1e4, 10 * MILLIMETRE)
     models = {
         side_modes: WaveSolid(
-            tissue, size=SIZE, support=support, modes=(160, 160), side_modes=(side_modes,) * 2
+            layers, size=SIZE, support=support, modes=(160, 160), side_modes=(side_modes,) * 2
         )
         for side_modes in ((48, 80) if support.sides_clamped else (48,))
     }
@@ -72,7 +93,7 @@ def near_side(support: Support) -> None:
         near = 3 * MILLIMETRE + gap * MILLIMETRE
         for sides, place in ((1, (near, SIZE[1] / 2)), (2, (near, near))):
             press = Press(x=place[0], y=place[1], radius=3 * MILLIMETRE, force=1.0)
-            reference = largest(FEASolid(tissue, size=SIZE, support=support, around=(press,)), press)
+            reference = largest(FEASolid(layers, size=SIZE, support=support, around=(press,)), press)
             differences = " | ".join(
                 f"{side_modes}: " + " ".join(f"{100 * e:+.2f}" for e in largest(model, press) / reference - 1)
                 for side_modes, model in models.items()
