@@ -23,6 +23,7 @@ from trocar.waves.solid import WaveSolid
 
 Progress = Callable[[float], None]
 _FORCES = 14  # of one rigid tip that are computed; depth is a smooth power of the force in between
+_SAME = 1e-6  # forces that differ by less are one
 _FORCE_RATIO = 300.0  # from the largest of them to the smallest
 _MOST_STEPS = 4000  # in one case: a longer one takes longer steps, its load being slower too
 
@@ -156,9 +157,10 @@ def _rigid(
 
 def _spread(forces: FloatArray) -> FloatArray:
     """Return few forces that span those of one tool, ascending."""
-    above = forces[forces > 0]
+    above: FloatArray = forces[forces > 0]
+    above = above[np.append(np.diff(above) > _SAME * above[1:], True)]
     if len(above) <= _FORCES:
-        return above
+        return np.asarray(above, dtype=np.float64)
     return np.geomspace(max(above.min(), above.max() / _FORCE_RATIO), above.max(), _FORCES)
 
 

@@ -18,12 +18,13 @@ from trocar.model import FloatArray, Load, Press, Profile
 from trocar.study.cases.tool import Tip, Tool
 from trocar.waves.pads import Pads, Pressable
 
-_RINGS = {Tip.FLAT: 6, Tip.SPHERE: 8}
+_RINGS = {Tip.FLAT: 6, Tip.SPHERE: 6}
 _WIDTH = {Tip.FLAT: 0.55, Tip.SPHERE: 0.45}  # of a pad's Gaussian, in spacings: a 1 MPa block is met to 0.3 %
-_AROUND = 1.2  # how far pads go beyond the circle a sphere is expected to touch
+_AROUND = 1.15  # how far pads go beyond the circle a sphere is expected to touch
 _WIDER = 1.5  # the next try where it touched further out
-_FULL = 0.93  # a patch is too small where the tip touches more than this share of it, its last ring
+_FULL = 0.92  # a patch is too small where the tip touches more than this share of it, its last ring
 _TIGHT = 0.6  # and where it touched less than this share, a closer one
+_LEAST = 0.02  # of its own radius: a lighter touch of a sphere is not resolved further
 _MOST_PATCHES = 12
 _SUMS = 1e-10  # relative error of a tool's force
 _MOST_TRIES = 60
@@ -92,16 +93,16 @@ class RigidTips:
         for i, tool in enumerate(self._tools):
             if tool.tip is Tip.SPHERE and self._met[i] > 0 and forces[i] > 0:
                 guess = _AROUND * self._expected[i] * (forces[i] / self._met[i]) ** (1 / 3)
-                reach[i] = min(guess, radii[i])
+                reach[i] = min(max(guess, _LEAST * radii[i]), radii[i])
         found = self._within(forces, reach)
         for _ in range(_MOST_PATCHES):
             sphere = np.array([tool.tip is Tip.SPHERE for tool in self._tools]) & (forces > 0)
             short = sphere & (found.touching >= reach * _FULL) & (reach < radii)
-            loose = sphere & (found.touching < _TIGHT * reach)
+            loose = sphere & (found.touching < _TIGHT * reach) & (reach > _LEAST * radii)
             if not (short | loose).any():
                 break
             reach = np.where(short, np.minimum(_WIDER * reach, radii), reach)
-            reach = np.where(loose, _AROUND * found.touching, reach)
+            reach = np.where(loose, np.maximum(_AROUND * found.touching, _LEAST * radii), reach)
             found = self._within(forces, reach)
         self._expected = np.where(forces > 0, found.touching, self._expected)
         self._met = np.where(forces > 0, forces, self._met)

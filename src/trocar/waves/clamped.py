@@ -62,6 +62,16 @@ class _Waves:
     lines_y: slice
     size: tuple[float, float]
 
+    def pulls(self, slide_x: FloatArray, slide_y: FloatArray) -> FloatArray:
+        """Return slides of lines of the sides, times the lengths of the sides: that makes A symmetric."""
+        a, b = self.size
+        return np.concatenate([b * slide_x[self.lines_x].ravel(), a * slide_y[self.lines_y].ravel()])
+
+    def slide_of_push(self, across: FloatArray) -> FloatArray:
+        """Return `pulls` of what a pressure on top (M + 1, N + 1) makes slide."""
+        v = across[self.place][..., None] * self.w_along[:, :, 0]
+        return self.pulls((self.toward_x * v).sum(axis=0), (self.toward_y * v).sum(axis=1))
+
     def under_load(self, across: FloatArray, along: FloatArray, side: FloatArray) -> FloatArray:
         v = across[self.place][..., None] * self.w_along[:, :, 0]
         v += along[self.place][..., None] * self.v_along[:, :, 0]
@@ -69,15 +79,13 @@ class _Waves:
 
     def under_slide(self, v: FloatArray, s: FloatArray) -> FloatArray:
         """Return W, V, S of the faces under the tractions that undo a slide; (m, n, nodes) to (3, m, n, faces)."""
-        slide_x = (self.toward_x * v - self.toward_y * s).sum(axis=0)[self.lines_x]
-        slide_y = (self.toward_y * v + self.toward_x * s).sum(axis=1)[self.lines_y]
-        # Rows times the length of their side: that makes A symmetric.
-        a, b = self.size
-        p = -cho_solve(self.factor, np.concatenate([b * slide_x.ravel(), a * slide_y.ravel()]))
-        nodes = v.shape[2]
-        across_x, across_y = np.zeros((v.shape[1], nodes)), np.zeros((v.shape[0], nodes))
-        across_x[self.lines_x] = p[: slide_x.size].reshape(-1, nodes)
-        across_y[self.lines_y] = p[slide_x.size :].reshape(-1, nodes)
+        slide_x = (self.toward_x * v - self.toward_y * s).sum(axis=0)
+        slide_y = (self.toward_y * v + self.toward_x * s).sum(axis=1)
+        p = -cho_solve(self.factor, self.pulls(slide_x, slide_y))
+        across_x, across_y = np.zeros_like(slide_x), np.zeros_like(slide_y)
+        first = across_x[self.lines_x].size
+        across_x[self.lines_x] = p[:first].reshape(across_x[self.lines_x].shape)
+        across_y[self.lines_y] = p[first:].reshape(across_y[self.lines_y].shape)
         x, y = self.weight_x * across_x, self.weight_y * across_y[:, None]
         along, side = self.toward_x * x + self.toward_y * y, self.toward_x * y - self.toward_y * x
         return np.stack(
@@ -121,6 +129,26 @@ class ClampedSides:
         parts = np.stack([self._own(part) for part in (across, along, side)])
         return self._sum(parts[..., None], lambda waves: waves.under_load(*parts))
 
+    def mutual(self, pressures: FloatArray) -> FloatArray:
+        """Return what the clamps add to the work of pressures on each other's deflection.
+
+        The tractions that hold the sides under one pressure work on what another makes slide: -r_i A^-1 r_j.
+
+        Args:
+            pressures: waves of each of n pressures on the top face [Pa], shape (n, M' + 1, N' + 1) for any M', N'.
+
+        Returns:
+            Shape (n, n) [J]; deflections where the pressures are those of 1 N.
+        """
+        own = [self._own(pressure) for pressure in pressures]
+        total = np.zeros((len(own), len(own)))
+        for parity in _PARITIES:
+            if any(np.abs(p[parity[0] :: 2, parity[1] :: 2]).max() > _SILENT * np.abs(p).max() for p in own):
+                waves = self._waves_of(parity)
+                slides = np.array([waves.slide_of_push(pressure) for pressure in own])
+                total -= slides @ cho_solve(waves.factor, slides.T)
+        return total
+
     def under_slide(self, v: FloatArray, s: FloatArray) -> FloatArray:
         """Return what the clamps add to given waves V and S [m], shape (M' + 1, N' + 1, nodes); see `under_load`."""
         parts = np.stack([self._own(part) for part in (v, s)])
@@ -132,14 +160,17 @@ class ClampedSides:
         own[:rows, :columns] = table[:rows, :columns]
         return own
 
+    def _waves_of(self, parity: tuple[int, int]) -> _Waves:
+        if parity not in self._built:
+            self._built[parity] = _waves(self._layers_wv, self._layers_s, self._series, parity)
+        return self._built[parity]
+
     def _sum(self, parts: FloatArray, answer: Callable[[_Waves], FloatArray]) -> FloatArray:
         loudness = np.abs(parts).max(axis=(0, 3))
         total = np.zeros((3, *self._series.shape, len(self._layers_wv.faces)))
         for parity in _PARITIES:
             if loudness[parity[0] :: 2, parity[1] :: 2].max() > _SILENT * max(loudness.max(), 1e-300):
-                if parity not in self._built:
-                    self._built[parity] = _waves(self._layers_wv, self._layers_s, self._series, parity)
-                waves = self._built[parity]
+                waves = self._waves_of(parity)
                 total[:, parity[0] :: 2, parity[1] :: 2] = answer(waves)
         return total
 

@@ -183,6 +183,10 @@ class WaveMembrane:
         """Return nothing: no clamps act on sheets."""
         return
 
+    def mutually_held_back(self, pressures: FloatArray) -> FloatArray:
+        """Return zeros, shape (n, n): no clamps act on sheets."""
+        return np.zeros((len(pressures), len(pressures)))
+
     def compliance(self, k: FloatArray, *, finest: float) -> FloatArray:
         """Return every face's static amplitude per unit of pressure's [m/Pa], (J,) to (J, faces); no direction."""
         return self.stack.compliance(k)

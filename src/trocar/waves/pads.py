@@ -39,6 +39,10 @@ class Pressable(Protocol):
         """Return what clamped sides add under a pressure's waves [Pa]: (faces, M' + 1, N' + 1) [m], or None."""
         ...
 
+    def mutually_held_back(self, pressures: FloatArray) -> FloatArray:
+        """Return what clamped sides add to how pressures of 1 N sink under each other, (n, M + 1, N + 1) to (n, n)."""
+        ...
+
     def compliance(self, k: FloatArray, *, finest: float) -> FloatArray:
         """Return every face's static amplitude per unit amplitude of pressure [m/Pa], (J,) to (J, faces)."""
         ...
@@ -84,14 +88,8 @@ class Pads:
         total = self._near.at(apart)[:, :, 0]
         shapes = (self._sin_x[:, :, None] * self._sin_y[:, None, :]).reshape(len(total), -1)
         total += (shapes * (self._model.wave_compliance[0] * self._passed).ravel()) @ shapes.T
-        for j, shape in enumerate(shapes):
-            held = self._model.held_back(self._passed * shape.reshape(self._passed.shape))
-            if held is None:
-                break
-            sines_x, sines_y = (
-                s[:, :n] for s, n in zip((self._sin_x, self._sin_y), held[0].shape, strict=True)
-            )
-            total[:, j] += np.einsum("pn,pn->p", sines_x @ held[0], sines_y)
+        pressures = shapes.reshape(len(total), *self._passed.shape) * self._passed
+        total += self._model.mutually_held_back(pressures)
         return np.asarray(0.5 * (total + total.T), dtype=np.float64)
 
     def deflection(self, forces: FloatArray, points: FloatArray) -> FloatArray:

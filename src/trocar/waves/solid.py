@@ -165,6 +165,12 @@ class WaveSolid:
         added: FloatArray = np.moveaxis(self._sides.under_load(across, none, none)[0], 2, 0)
         return added
 
+    def mutually_held_back(self, pressures: FloatArray) -> FloatArray:
+        """Return what clamped sides add to how pressures of 1 N sink under each other, (n, M + 1, N + 1) to (n, n)."""
+        if self._sides is None:
+            return np.zeros((len(pressures), len(pressures)))
+        return self._sides.mutual(pressures)
+
     def compliance(self, k: FloatArray, *, finest: float) -> FloatArray:
         """Return every face's static W per unit amplitude of pressure [m/Pa], far from the sides, in no direction.
 
