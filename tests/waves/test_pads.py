@@ -29,8 +29,8 @@ def test_short_series_and_near_field_are_the_long_series(skin, support):
     long = WaveSolid(skin, size=SIZE, support=support, modes=(200, 200))
     pads = Pads(short, PLACES, WIDTH)
     expected = as_presses(long, "epidermis")
-    # The window keeps all but (s k)^2/2 of the block's longest wave, 6e-4 here, and the near field gives that back without
-    # the sides; its rows are interpolated to 1e-4.
+    # The window keeps all but (s k)^2/2 of the block's longest wave, 6e-4 here, and the near field gives that back
+    # without the sides; its rows are interpolated to 1e-4.
     assert pads.compliance == pytest.approx(expected, rel=2e-3, abs=2e-3 * expected.max())
     forces = np.array([0.3, 0.1, 0.2, 0.4])
     for face, layer in enumerate(skin.layer_names):
