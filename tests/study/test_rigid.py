@@ -136,6 +136,24 @@ def test_what_a_rigid_tip_cannot_do_is_refused(change, words):
         replace(tool(), **change)
 
 
+def test_rigid_tips_do_not_overlap():
+    with pytest.raises(InputError, match="at least 5 mm from the first tool"):
+        case_from_tissue(
+            tissue=tissue("skin"), size=(SIDE, SIDE), tools=(tool(), tool(place=(0.0349, 0.03))), period=0.1
+        )
+
+
+@pytest.mark.parametrize("forces", [(1e-6, 3.0), (0.5, 1e-5)])
+def test_a_light_tip_in_the_dent_of_a_heavy_one_is_found(block, forces):
+    """It hangs over a hollow that deepens towards its neighbour, and still presses with its own force."""
+    found = RigidTips(block, (tool(place=(0.027, 0.03)), tool(Tip.FLAT, place=(0.033, 0.03)))).press(
+        np.array(forces)
+    )
+    pads = len(found.forces) // 2
+    assert [found.forces[:pads].sum(), found.forces[pads:].sum()] == pytest.approx(forces, rel=1e-6)
+    assert (found.forces >= 0).all()
+
+
 def test_rigid_tips_neither_move_fast_nor_mix_with_dead_loads():
     dead = Tool(diameter=5e-3, position=(0.02, 0.03), peak=0.05, rate=0.05)
     with pytest.raises(InputError, match=r"tool\[1\].contact"):

@@ -26,8 +26,8 @@ _FULL = 0.92  # a patch is too small where the tip touches more than this share 
 _TIGHT = 0.6  # and where it touched less than this share, a closer one
 _LEAST = 0.02  # of its own radius: a lighter touch of a sphere is not resolved further
 _MOST_PATCHES = 12
-_SUMS = 1e-10  # relative error of a tool's force
-_MOST_TRIES = 60
+_SUMS, _ROUNDING = 1e-9, 1e-13  # error of a tool's force, relative to itself and to the largest
+_MOST_TRIES = 200
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,7 +162,11 @@ class RigidTips:
 def _balanced(
     compliance: FloatArray, shape: FloatArray, sums: FloatArray, totals: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the pads' forces and the tips' depths whose pads' forces add up, by Newton's method on the depths."""
+    """Return the pads' forces and the tips' depths whose pads' forces add up.
+
+    The depths are where totals . depths - p W p/2 is largest, a concave function with the slope totals - sums p:
+    Newton's method, its step halved until the function grows.
+    """
     pads = len(shape)
     stiff = np.linalg.solve(compliance, np.column_stack([sums.T, shape]))
     depths = np.linalg.solve(sums @ stiff[:, :-1], totals + sums @ stiff[:, -1])  # as if all pads were held
@@ -172,15 +176,29 @@ def _balanced(
         np.empty((pads, pads)),
         np.empty(pads, dtype=np.int64),
     )
+    exact = _SUMS * totals + _ROUNDING * totals.max()
+    best, step = -np.inf, np.zeros_like(depths)
     for _ in range(_MOST_TRIES):
         if not press(compliance, sums.T @ depths - shape, holding, touching, forces, factor, order):
             break
         lacking = totals - sums @ forces
-        if np.abs(lacking).max() <= _SUMS * totals.max():
+        if (np.abs(lacking) <= exact).all():
             return forces, np.asarray(depths, dtype=np.float64)
-        own = sums[:, touching]
+        value = float(totals @ depths - 0.5 * forces @ compliance @ forces)
+        if value < best - 1e-12 * abs(best):
+            step = 0.5 * step
+            depths = depths - step
+            continue
+        best, own = value, sums[:, touching]
         slope = own @ np.linalg.solve(compliance[np.ix_(touching, touching)], own.T)
-        depths = depths + np.linalg.solve(slope + 1e-12 * np.diag(slope.diagonal()), lacking)
+        # A tip that touches nowhere, over the dent of a heavier one, has no slope of its own: go down by a pad's worth.
+        idle = ~own.any(axis=1)
+        slope[idle, idle] = 1 / compliance.diagonal().max()
+        step = np.linalg.solve(slope, lacking)
+        gaps = compliance @ forces - sums.T @ depths + shape
+        for tip in np.flatnonzero(idle):
+            step[tip] += gaps[sums[tip] > 0].min()
+        depths = depths + step
     raise SolverError("rigid contact: expected pads in equilibrium; take a larger tool or a smaller block")
 
 

@@ -9,7 +9,7 @@ Read from TOML by `trocar.study.cases.reading.load_case`, or made in code by `ca
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import floor, isfinite
+from math import floor, hypot, isfinite
 
 import numpy as np
 
@@ -191,6 +191,18 @@ class Case:
                 f'"{self.tools[0].contact}", as the first tool',
                 self.tools[1].contact.value,
             )
+
+        if self.rigid and len(self.tools) == 2:
+            apart = hypot(
+                *(a - b for a, b in zip(self.tools[0].position, self.tools[1].position, strict=True))
+            )
+            least = 0.5 * (self.tools[0].diameter + self.tools[1].diameter)
+            if apart < least * (1 - SAME_PLACE):
+                raise InputError(
+                    "tool[1].position",
+                    f"at least {1e3 * least:.6g} mm from the first tool: rigid tips do not overlap",
+                    float(f"{1e3 * apart:.6g}"),
+                )
 
     def _check_sampling(self) -> None:
         if self.sampling.dynamic and self.rigid:
