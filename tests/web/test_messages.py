@@ -1,0 +1,45 @@
+"""Text messages: what a client may send, and that what the server says is finite and whole."""
+
+import pytest
+from pydantic import ValidationError
+
+from trocar.web.messages import Acknowledgement, Camera, Notice, Reset, read_client_message
+from web.scripted_source import HELLO
+
+
+def test_what_a_client_may_say():
+    assert read_client_message('{"type": "ack", "sequence": 4294967295}') == Acknowledgement(
+        sequence=2**32 - 1
+    )
+    assert read_client_message('{"sequence": 0, "type": "ack"}') == Acknowledgement(sequence=0)
+    assert read_client_message(' {"type": "reset"} ') == Reset()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "{}",
+        "null",
+        '{"type": "ack"}',
+        '{"type": "ack", "sequence": true}',
+        '{"type": "ack", "sequence": 4294967296}',
+    ],
+)
+def test_what_it_may_not(text):
+    with pytest.raises(ValueError, match="validation error"):
+        read_client_message(text)
+
+
+def test_a_greeting_holds_finite_numbers_only():
+    with pytest.raises(ValidationError):
+        Camera(port_m=(0.0, 0.0, float("nan")), target_m=(0.0, 0.0, 0.0))
+
+
+def test_a_notice_has_a_known_level():
+    with pytest.raises(ValidationError):
+        Notice(level="shout", text="hello")
+
+
+def test_the_block_is_as_thick_as_its_layers():
+    assert HELLO.tissue.thickness == pytest.approx(0.0121, rel=1e-12)
