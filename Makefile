@@ -24,8 +24,9 @@ run study: .venv/ready  ## set up, then run the validation study into study/ (ma
 	@.venv/bin/trocar study --out study
 
 .PHONY: test
-test: .venv/ready  ## set up, then run every test (WORKERS=2)
-	@.venv/bin/python -m pytest -q -n $(WORKERS)
+test: .venv/ready  ## set up, then run every test, the client's too (WORKERS=2)
+	@.venv/bin/python hatch_build.py check
+	.venv/bin/python -m pytest -q -n $(WORKERS)
 
 .PHONY: lint
 lint: .venv/ready  ## style, format, types and the layers of imports
@@ -65,7 +66,7 @@ lock:  ## pin every dependency again, by hash (needs Python 3.11: what it resolv
 
 .PHONY: clean
 clean:  ## remove everything that was made, the virtual environment too
-	@rm -rf .venv build dist study docs/_build docs/reference/api
+	@rm -rf .venv build dist study docs/_build docs/reference/api client/node_modules src/trocar/web/static
 	rm -rf .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
 	find src tests docs -name __pycache__ -type d -prune -exec rm -rf {} +
 
@@ -93,6 +94,9 @@ clean:  ## remove everything that was made, the virtual environment too
 	$(PIP) install --require-hashes --only-binary :all: -r $<
 	touch $@
 
-.venv/ready: pyproject.toml .venv/dependencies
+# Making the package builds the browser client too, where its source has changed (hatch_build.py).
+CLIENT := $(shell find client -name node_modules -prune -o -type f -print)
+
+.venv/ready: pyproject.toml hatch_build.py $(CLIENT) .venv/dependencies
 	@$(PIP) install --no-deps --no-build-isolation --no-index --editable .
 	touch $@

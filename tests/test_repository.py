@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import tomllib
 from pathlib import Path
@@ -44,6 +45,14 @@ def test_a_lock_names_no_index_and_hashes_every_package(lock: Path) -> None:
     assert not re.search(r"^\s*--(?!hash)", text, flags=re.MULTILINE)
     for block in re.split(r"\n(?=[a-z])", text):
         assert "--hash=sha256:" in block, block.splitlines()[0]
+
+
+def test_the_clients_lock_names_no_address_and_hashes_every_package() -> None:
+    packages = json.loads((ROOT / "client/package-lock.json").read_text())["packages"]
+    locked = {name: package for name, package in packages.items() if name}
+    assert len(locked) > 20
+    assert [name for name, package in locked.items() if "resolved" in package] == []
+    assert [name for name, package in locked.items() if "integrity" not in package] == []
 
 
 def test_the_lock_keeps_to_numpy_that_runs_on_the_oldest_python() -> None:

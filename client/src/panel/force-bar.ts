@@ -1,0 +1,49 @@
+/** The force on one instrument's tip: a bar with the linear range marked, and the same in words. */
+
+import type { InstrumentState } from "../wire/frame";
+import { norm } from "../vector";
+import { make, say } from "./element";
+
+const SPAN = 2; // full bar, in linear ranges: the mark stands in the middle
+
+export class ForceBar {
+  readonly element = make("div", "bar");
+  private readonly value = make("span", "", "0.00 N");
+  private readonly track = make("div", "track");
+  private readonly fill = make("div", "fill");
+  private readonly said = make("p", "said");
+
+  /** @param title such as "left: grasper". @param linear the linear range ends here [N]. */
+  constructor(
+    title: string,
+    private readonly linear: number,
+  ) {
+    const head = make("div", "bar-head");
+    head.append(make("span", "", title), this.value);
+    this.track.setAttribute("role", "meter");
+    this.track.setAttribute("aria-label", `Force, ${title}`);
+    this.track.setAttribute("aria-valuemin", "0");
+    this.track.setAttribute("aria-valuemax", (SPAN * linear).toFixed(3));
+    this.track.append(this.fill, make("div", "mark"));
+    this.element.append(head, this.track, this.said);
+    this.show(0, "");
+  }
+
+  /** Show what a frame says. */
+  update(state: InstrumentState): void {
+    const force = norm(state.force);
+    const doing = state.holding ? "holds tissue" : state.touching ? "touches" : state.present ? "free" : "not in the hand";
+    this.show(force, doing);
+  }
+
+  private show(force: number, doing: string): void {
+    const beyond = force > this.linear;
+    const text = `${force.toFixed(2)} N`;
+    say(this.value, text);
+    say(this.said, beyond ? `${doing}, beyond the linear range` : doing);
+    this.element.dataset["beyond"] = String(beyond);
+    this.fill.style.transform = `scaleX(${Math.min(force / (SPAN * this.linear), 1).toFixed(3)})`;
+    this.track.setAttribute("aria-valuenow", Math.min(force, SPAN * this.linear).toFixed(2));
+    this.track.setAttribute("aria-valuetext", beyond ? `${text}, beyond the linear range` : text);
+  }
+}

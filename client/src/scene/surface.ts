@@ -1,0 +1,116 @@
+/** The upper face of the tissue: the newest frame's displacement at the grid's nodes, drawn as it is. */
+
+import { BufferAttribute, BufferGeometry } from "three";
+
+import type { Frame } from "../wire/frame";
+import { TILE } from "./skin-texture";
+
+const NEARBY = 0.004; // how far round a node its surroundings are looked at [m]
+const SHUT_OFF = 1.6; // light lost for a hollow as deep as that is wide, against light kept
+
+export class Surface {
+  readonly geometry = new BufferGeometry();
+  private readonly position: Float32Array;
+  private readonly normal: Float32Array;
+  private readonly shade: Float32Array; // how much of its light a node gets, three equal colours
+
+  /** @param size of the block [m]. @param nx nodes along x, from edge to edge. @param ny nodes along y. */
+  constructor(
+    private readonly size: readonly [number, number],
+    private readonly nx: number,
+    private readonly ny: number,
+  ) {
+    const count = nx * ny;
+    this.position = new Float32Array(3 * count);
+    this.normal = new Float32Array(3 * count);
+    this.shade = new Float32Array(3 * count).fill(1);
+    const uv = new Float32Array(2 * count);
+    for (let j = 0; j < ny; j++) {
+      for (let i = 0; i < nx; i++) {
+        const at = j * nx + i;
+        const x = (size[0] * i) / (nx - 1);
+        const y = (size[1] * j) / (ny - 1);
+        this.position.set([x, y, 0], 3 * at);
+        this.normal.set([0, 0, 1], 3 * at);
+        uv.set([x / TILE, y / TILE], 2 * at); // the texture belongs to the tissue and moves with it
+      }
+    }
+    this.geometry.setAttribute("position", new BufferAttribute(this.position, 3));
+    this.geometry.setAttribute("normal", new BufferAttribute(this.normal, 3));
+    this.geometry.setAttribute("color", new BufferAttribute(this.shade, 3));
+    this.geometry.setAttribute("uv", new BufferAttribute(uv, 2));
+    this.geometry.setIndex(triangles(nx, ny));
+  }
+
+  /** Move every node to where the frame has it. */
+  update(frame: Frame): void {
+    const { nx, ny, size, position } = this;
+    const count = nx * ny;
+    for (let j = 0; j < ny; j++) {
+      for (let i = 0; i < nx; i++) {
+        const at = j * nx + i;
+        position[3 * at] = (size[0] * i) / (nx - 1) + (frame.inPlane?.[at] ?? 0);
+        position[3 * at + 1] = (size[1] * j) / (ny - 1) + (frame.inPlane?.[count + at] ?? 0);
+        position[3 * at + 2] = frame.heights[at] as number;
+      }
+    }
+    this.turnNormals();
+    this.shadeHollows();
+    for (const name of ["position", "normal", "color"]) this.geometry.getAttribute(name).needsUpdate = true;
+  }
+
+  /** Darken hollows: a node below the mean of those around it is shut off from light its surroundings send back. */
+  private shadeHollows(): void {
+    const { nx, ny, position, shade } = this;
+    const reach = Math.max(1, Math.round((NEARBY * (nx - 1)) / this.size[0]));
+    for (let j = 0; j < ny; j++) {
+      for (let i = 0; i < nx; i++) {
+        const height = (column: number, row: number): number =>
+          position[3 * (inside(row, ny) * nx + inside(column, nx)) + 2] as number;
+        const around = height(i - reach, j) + height(i + reach, j) + height(i, j - reach) + height(i, j + reach);
+        const below = Math.max(around / 4 - height(i, j), 0) / NEARBY;
+        shade.fill(1 / (1 + SHUT_OFF * below), 3 * (j * nx + i), 3 * (j * nx + i) + 3);
+      }
+    }
+  }
+
+  /** Normals across the differences to the neighbours, one-sided at the edges. */
+  private turnNormals(): void {
+    const { nx, ny, position, normal } = this;
+    const between = (a: number, b: number, axis: number): number =>
+      (position[3 * b + axis] as number) - (position[3 * a + axis] as number);
+    for (let j = 0; j < ny; j++) {
+      for (let i = 0; i < nx; i++) {
+        const at = j * nx + i;
+        const west = i > 0 ? at - 1 : at;
+        const east = i < nx - 1 ? at + 1 : at;
+        const south = j > 0 ? at - nx : at;
+        const north = j < ny - 1 ? at + nx : at;
+        const [ax, ay, az] = [between(west, east, 0), between(west, east, 1), between(west, east, 2)];
+        const [bx, by, bz] = [between(south, north, 0), between(south, north, 1), between(south, north, 2)];
+        const x = ay * bz - az * by;
+        const y = az * bx - ax * bz;
+        const z = ax * by - ay * bx;
+        const length = Math.hypot(x, y, z) || 1;
+        normal[3 * at] = x / length;
+        normal[3 * at + 1] = y / length;
+        normal[3 * at + 2] = z / length;
+      }
+    }
+  }
+}
+
+function inside(index: number, count: number): number {
+  return Math.min(Math.max(index, 0), count - 1);
+}
+
+function triangles(nx: number, ny: number): number[] {
+  const index: number[] = [];
+  for (let j = 0; j < ny - 1; j++) {
+    for (let i = 0; i < nx - 1; i++) {
+      const at = j * nx + i;
+      index.push(at, at + 1, at + nx + 1, at, at + nx + 1, at + nx);
+    }
+  }
+  return index;
+}

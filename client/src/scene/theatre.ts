@@ -1,0 +1,64 @@
+/** Everything there is to see, in the block's own frame (z out of the tissue, metres). */
+
+import { Color, Group, Scene } from "three";
+
+import type { Hands } from "../instrument/hands";
+import type { Frame } from "../wire/frame";
+import type { Hello, InstrumentShape } from "../wire/messages";
+import { Block } from "./block";
+import { makeCavity } from "./cavity";
+import { Instrument } from "./instrument";
+import { Lamp } from "./lamp";
+import { makePort } from "./port";
+import { makeMaps, WET } from "./skin-texture";
+
+const SCOPE_RADIUS = 0.005; // [m]
+
+export class Theatre {
+  readonly scene = new Scene();
+  readonly lamp: Lamp;
+  private readonly content = new Group();
+  private block: Block | null = null;
+  private instruments: readonly Instrument[] = [];
+  private scopePort = new Group();
+  private readonly maps = makeMaps(WET, 3, 512);
+
+  constructor() {
+    this.scene.background = new Color(0x050202);
+    this.lamp = new Lamp(this.scene);
+    this.scene.add(this.content);
+  }
+
+  /** Build what a greeting describes, in place of what was there. */
+  build(hello: Hello): void {
+    this.content.clear();
+    const [a, b] = hello.tissue.size_m;
+    this.block = new Block(hello, this.maps);
+    this.content.add(this.block.group, makeCavity(hello, this.maps));
+    this.instruments = hello.instruments.map((shape: InstrumentShape) => {
+      const instrument = new Instrument(shape);
+      this.content.add(instrument.group, makePort(shape.port_m, [a / 2, b / 2, 0], shape.shaft_radius_m));
+      return instrument;
+    });
+    this.scopePort = makePort(hello.camera.port_m, hello.camera.target_m, SCOPE_RADIUS);
+    this.content.add(this.scopePort);
+  }
+
+  /** Show the tissue as the newest frame has it. */
+  deform(frame: Frame): void {
+    this.block?.update(frame);
+  }
+
+  /** Show the scope's own port, or not where it would stand before the eyes. */
+  showScopePort(shown: boolean): void {
+    this.scopePort.visible = shown;
+  }
+
+  /** Show the instruments as the hands hold them now. */
+  place(hands: Hands): void {
+    this.instruments.forEach((instrument, side) => {
+      const which = side as 0 | 1;
+      instrument.place(hands.poses[which], hands.reach(which));
+    });
+  }
+}

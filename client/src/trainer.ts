@@ -1,0 +1,107 @@
+/**
+ * One turn of the page, at the display's own rate: devices move the hands, the hands go to the trainer, the newest
+ * frame moves the tissue, and the picture is drawn. Instruments and head never wait for the trainer.
+ */
+
+import type { Device } from "./input/device";
+import { NEITHER } from "./input/device";
+import { HeadsetDevice } from "./input/headset";
+import type { ScopeKeys } from "./input/scope-keys";
+import { Hands } from "./instrument/hands";
+import { showRim } from "./panel/controls";
+import type { Panel } from "./panel/panel";
+import type { Immersion } from "./scene/immersion";
+import type { Picture } from "./scene/picture";
+import { Scope, type ScopeAngle } from "./scene/scope";
+import type { Theatre } from "./scene/theatre";
+import type { Vector } from "./vector";
+import type { Frame } from "./wire/frame";
+import type { Link } from "./wire/link";
+import type { Hello } from "./wire/messages";
+
+const LONGEST = 0.1; // a longer pause moves nothing further [s]
+const SIDES = [0, 1] as const;
+
+export class Trainer {
+  private hello: Hello | null = null;
+  private hands: Hands | null = null;
+  private scope = new Scope([0, -0.1, 0.1], [0, 0, 0]);
+  private centre: Vector = [0, 0, 0];
+  private last = 0; // [ms]
+  private readonly touching: [boolean, boolean] = [false, false];
+  private tracked: ReturnType<Immersion["controllers"]> = NEITHER;
+  private readonly headset = new HeadsetDevice(() => this.tracked);
+
+  constructor(
+    private readonly link: Link,
+    private readonly panel: Panel,
+    private readonly theatre: Theatre,
+    private readonly picture: Picture,
+    private readonly immersion: Immersion,
+    private readonly devices: readonly Device[],
+    private readonly scopeKeys: ScopeKeys,
+  ) {}
+
+  /** Take what the trainer says first; the same again, after a lost connection, changes nothing that is held. */
+  greet(hello: Hello): void {
+    this.panel.greet(hello);
+    if (JSON.stringify(hello) === JSON.stringify(this.hello)) return;
+    const angle = this.scope.viewAngle;
+    this.hello = hello;
+    this.hands = new Hands(hello);
+    this.scope = new Scope(hello.camera.port_m, hello.camera.target_m);
+    this.scope.choose(angle);
+    this.centre = [hello.tissue.size_m[0] / 2, hello.tissue.size_m[1] / 2, 0];
+    this.theatre.build(hello);
+  }
+
+  chooseScope(angle: ScopeAngle): void {
+    this.scope.choose(angle);
+  }
+
+  home(): void {
+    this.scope.home();
+  }
+
+  /** One turn. @param now [ms]. @param xr the headset's frame while in a session. */
+  turn(now: number, xr: XRFrame | undefined): void {
+    const seconds = Math.min((now - this.last) / 1000, LONGEST);
+    this.last = now;
+    this.scopeKeys.move(this.scope, seconds);
+    const look = this.scope.look();
+    if (this.immersion.presenting) this.immersion.place(xr, this.centre);
+    else this.picture.aim(look);
+    this.theatre.showScopePort(!this.immersion.presenting);
+    showRim(this.scope.viewAngle, this.scope.rim);
+    const hands = this.hands;
+    if (hands) {
+      const view = this.picture.view(look, this.centre);
+      this.tracked = this.immersion.controllers(xr);
+      for (const device of [...this.devices, this.headset]) hands.move(device, view, seconds);
+      for (const side of SIDES) this.link.pose(side, hands.poses[side], now);
+      this.theatre.place(hands);
+    }
+    const frame = this.hello && this.newest();
+    if (frame) this.show(frame, now);
+    this.picture.draw(now, this.centre);
+  }
+
+  private newest(): Frame | null {
+    const frame = this.link.frames.take();
+    if (!frame || !this.hello) return null;
+    const [nx, ny] = this.hello.grid;
+    if (frame.nx === nx && frame.ny === ny && frame.layers === this.hello.tissue.layers.length) return frame;
+    this.link.refuse("The trainer's frames have another grid than its greeting: load the page again.");
+    return null;
+  }
+
+  private show(frame: Frame, now: number): void {
+    this.theatre.deform(frame);
+    this.panel.update(frame, now);
+    frame.instruments.forEach((state, at) => {
+      const side = at as 0 | 1;
+      if (state.touching && !this.touching[side]) this.immersion.pulse(side);
+      this.touching[side] = state.touching;
+    });
+  }
+}

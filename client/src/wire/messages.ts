@@ -1,0 +1,77 @@
+/** The text half of the live stream: what the server says in JSON, checked before anything uses it. */
+
+import { type Hello, type InstrumentShape, type Notice, PROTOCOL } from "./contract";
+
+export type { Hello, InstrumentShape, Notice } from "./contract";
+export type Tip = InstrumentShape["tip"];
+
+/** What came is not what the contract says; the message is a sentence for the user. */
+export class WireError extends Error {}
+
+const LEVELS: readonly unknown[] = ["info", "warning", "stopped"];
+const TIPS: readonly unknown[] = ["probe", "grasper", "needle-holder", "hook"];
+
+/** Read one text message of the server. */
+export function readServerMessage(text: string): Hello | Notice {
+  let message: unknown;
+  try {
+    message = JSON.parse(text);
+  } catch {
+    throw new WireError("The trainer sent a text that is not JSON.");
+  }
+  const type = field(message, "type");
+  if (type === "notice") return readNotice(message);
+  if (type === "hello") return readHello(message);
+  throw new WireError(`The trainer sent a message of unknown type ${JSON.stringify(type)}.`);
+}
+
+function readNotice(message: unknown): Notice {
+  const notice = message as Notice;
+  if (!LEVELS.includes(notice.level) || typeof notice.text !== "string") {
+    throw new WireError("The trainer sent a notice without a level or a text.");
+  }
+  return notice;
+}
+
+function readHello(message: unknown): Hello {
+  const protocol = field(message, "protocol");
+  if (protocol !== PROTOCOL) {
+    throw new WireError(
+      `The trainer speaks protocol ${String(protocol)}, this page ${PROTOCOL}: load the page again.`,
+    );
+  }
+  const hello = message as Hello;
+  const sound =
+    isNumbers(hello.tissue?.size_m, 2) &&
+    Array.isArray(hello.tissue.layers) &&
+    hello.tissue.layers.length > 0 &&
+    hello.tissue.layers.every((layer) => typeof layer.name === "string" && layer.thickness_m > 0) &&
+    isNumbers(hello.grid, 2) &&
+    isNumbers(hello.camera?.port_m, 3) &&
+    isNumbers(hello.camera.target_m, 3) &&
+    Number.isFinite(hello.linear_force_n) &&
+    Number.isFinite(hello.rate_hz) &&
+    Array.isArray(hello.instruments) &&
+    hello.instruments.length === 2 &&
+    hello.instruments.every(isInstrument);
+  if (!sound) throw new WireError("The trainer's greeting lacks what this page needs to draw.");
+  return hello;
+}
+
+function isInstrument(shape: InstrumentShape): boolean {
+  return (
+    isNumbers(shape.port_m, 3) &&
+    isNumbers(shape.handle_m, 3) &&
+    shape.length_m > 0 &&
+    shape.shaft_radius_m > 0 &&
+    TIPS.includes(shape.tip)
+  );
+}
+
+function isNumbers(value: unknown, count: number): boolean {
+  return Array.isArray(value) && value.length === count && value.every(Number.isFinite);
+}
+
+function field(message: unknown, key: string): unknown {
+  return typeof message === "object" && message !== null ? Reflect.get(message, key) : undefined;
+}
