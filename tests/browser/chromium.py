@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 from pathlib import Path
+
+import pytest
 
 TIME = 5000  # [ms] of the page's own clock, after which it is looked at
 LIMIT = 120  # [s] of ours
@@ -20,6 +23,16 @@ def find() -> str | None:
         ),
         None,
     )
+
+
+def required() -> str:
+    """Return the program; without it fail where everything must be tested, else skip."""
+    program = find()
+    if program is None:
+        if os.environ.get("CI") == "true":
+            pytest.fail("Chromium is not installed")
+        pytest.skip("Chromium is not installed (Debian: apt install chromium)")
+    return program
 
 
 def look(program: str, page: Path, profile: Path, *flags: str) -> tuple[str, list[str]]:

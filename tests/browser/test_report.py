@@ -1,7 +1,6 @@
 """The report in a real browser: nothing complains, everything is drawn, nothing runs out of a narrow window."""
 
 import json
-import os
 import re
 from html import unescape
 
@@ -9,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from browser.chromium import find, look
+from browser.chromium import look, required
 from small_study import LEDGER
 from trocar.study.report.page import CONTENTS
 from trocar.study.writing.results import write_study
@@ -26,12 +25,7 @@ PROBE = """<script>addEventListener("load", () => {
 
 @pytest.fixture(scope="module")
 def browser():
-    program = find()
-    if program is None:
-        if os.environ.get("CI") == "true":
-            pytest.fail("Chromium is not installed")
-        pytest.skip("Chromium is not installed (Debian: apt install chromium)")
-    return program
+    return required()
 
 
 @pytest.fixture(scope="module")

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import re
 
 import numpy as np
 import pytest
 from playwright.sync_api import sync_playwright
 
-from browser.chromium import find
+from browser.chromium import required
 from browser.open_page import MODULES, open_page
 from browser.synthetic_trainer import STATIC, SyntheticTrainer
 
@@ -19,11 +18,7 @@ STEP = 1e-3  # a movement anyone would see [m]
 
 @pytest.fixture(scope="module")
 def browser():
-    program = find()
-    if program is None:
-        if os.environ.get("CI") == "true":
-            pytest.fail("Chromium is not installed")
-        pytest.skip("Chromium is not installed (Debian: apt install chromium)")
+    program = required()
     if not (STATIC / "index.html").is_file():
         pytest.fail("the client is not built: pip install --editable .")
     with sync_playwright() as playwright:

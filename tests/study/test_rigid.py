@@ -120,8 +120,8 @@ def test_compare_presses_rigid_tips():
 
 def test_finite_elements_take_no_rigid_tip():
     case = case_from_tissue(tissue=tissue("skin"), size=(SIDE, SIDE), tools=(tool(),), period=0.5)
-    with pytest.raises(InputError, match="wave models with a rigid tip"):
-        compare(case, ("fea",))
+    with pytest.raises(InputError, match="wave-membrane or wave-solid, which take a rigid tip, got 'fea'"):
+        compare(case, ("wave-solid", "fea"), builders={})  # refused before anything is built
 
 
 @pytest.mark.parametrize(

@@ -83,3 +83,8 @@ def test_the_module_prints_it_the_same_in_another_process():
         env=os.environ | {"PYTHONPATH": str(source), "PYTHONHASHSEED": "7"},
     ).stdout
     assert printed == TEXT
+
+
+def test_the_client_has_the_types_of_this_server():
+    written = Path(__file__).parents[2] / "client" / "src" / "wire" / "contract.ts"
+    assert written.read_text() == TEXT, "run: python -m trocar.web.typescript > client/src/wire/contract.ts"

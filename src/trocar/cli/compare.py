@@ -24,8 +24,12 @@ def compare(
         Path, typer.Argument(help="A case file in TOML (docs: reference/case-file).", show_default=False)
     ],
     models: Annotated[
-        str, typer.Option(help="Which models, separated by commas: wave-membrane, wave-solid, fea.")
-    ] = "wave-solid,fea",
+        str | None,
+        typer.Option(
+            help="Which models, separated by commas: wave-membrane, wave-solid, fea. Else wave-solid,fea, and with a rigid tip "
+            "wave-solid,wave-membrane."
+        ),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON alone on stdout.")] = False,
 ) -> None:
     """Run one case through several models and print what each says."""
@@ -34,10 +38,11 @@ def compare(
 
     from trocar.study.cases.reading import load_case
     from trocar.study.compare import compare as run
-    from trocar.study.models import check_names
+    from trocar.study.models import check_names, usual_models
 
     experiment = load_case(case)
-    names = check_names([name.strip() for name in models.split(",") if name.strip()])
+    asked = None if models is None else [name.strip() for name in models.split(",") if name.strip()]
+    names = usual_models(experiment) if asked is None else check_names(asked)
     with Progress(console=Console(stderr=True), transient=True) as bars:
         tasks = {name: bars.add_task(name, total=1.0) for name in names}
         result = run(experiment, names, watch=lambda name, share: bars.update(tasks[name], completed=share))

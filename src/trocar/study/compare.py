@@ -6,9 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
+from trocar.errors import InputError
 from trocar.study.cases.experiment import Case
 from trocar.study.history import History, run
-from trocar.study.models import MODELS, AnyModel, check_names
+from trocar.study.models import MODELS, AnyModel, check_names, usual_models
+from trocar.study.stated_range import WAVES
 from trocar.units import MILLIMETRE
 
 Watch = Callable[[str, float], None]
@@ -51,7 +53,7 @@ class Comparison:
 
 def compare(
     case: Case,
-    models: Sequence[str] = ("wave-solid", "fea"),
+    models: Sequence[str] | None = None,
     *,
     builders: Mapping[str, Callable[[Case], AnyModel]] = MODELS,
     watch: Watch = lambda _model, _share: None,
@@ -60,15 +62,19 @@ def compare(
 
     Args:
         case: the experiment.
-        models: names, of those in `trocar.study.models.MODELS`.
+        models: names, of those in `trocar.study.models.MODELS`; None for the usual ones of such a case.
         builders: make each model for the case, by name.
         watch: told the model and the share of it done, 0 to 1, as the work goes on.
 
     Raises:
-        InputError: a name is unknown, or that model is not built yet.
+        InputError: a name is unknown, or that model is not built yet or takes no rigid tip.
         SolverError: a model could not be solved.
     """
-    histories = tuple(run(case, name, builders[name], partial(watch, name)) for name in check_names(models))
+    names = usual_models(case) if models is None else check_names(models)
+    for name in names:
+        if case.rigid and name not in WAVES:
+            raise InputError("models", f"{' or '.join(WAVES)}, which take a rigid tip", name)
+    histories = tuple(run(case, name, builders[name], partial(watch, name)) for name in names)
     return Comparison(case=case, histories=histories)
 
 

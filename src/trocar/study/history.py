@@ -6,11 +6,11 @@ import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import process_time
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from trocar.errors import InputError
 from trocar.model import FloatArray, Load, State
 from trocar.study.cases.experiment import Case
 from trocar.study.deflection import deflections, search_points
@@ -18,8 +18,6 @@ from trocar.study.linear_range import LinearRange, linear_range
 from trocar.study.models import AnyModel
 from trocar.study.rigid import RigidTips
 from trocar.study.stated_range import departures
-from trocar.waves.membrane import WaveMembrane
-from trocar.waves.solid import WaveSolid
 
 Progress = Callable[[float], None]
 _FORCES = 14  # of one rigid tip that are computed; depth is a smooth power of the force in between
@@ -86,7 +84,7 @@ def run(
     peaks = tuple(tool.press(tool.peak) for tool in case.tools)
     furthest: State | None = None
     if case.rigid:
-        depths, setup, peaks = _rigid(case, name, model, times, progress)
+        depths, setup, peaks = _rigid(case, model, times, progress)
     elif case.sampling.dynamic:
         depths, setup, furthest = _moving(case, model, times, progress)
     else:
@@ -128,12 +126,8 @@ def _quasi_static(
     return depths, setup
 
 
-def _rigid(
-    case: Case, name: str, model: AnyModel, times: FloatArray, progress: Progress
-) -> tuple[FloatArray, float, Load]:
+def _rigid(case: Case, model: Any, times: FloatArray, progress: Progress) -> tuple[FloatArray, float, Load]:
     """Press rigid tips to every distinct set of forces; return too what the linear range is judged by."""
-    if not isinstance(model, WaveSolid | WaveMembrane):
-        raise InputError("models", "wave models with a rigid tip, wave-solid or wave-membrane", name)
     tips = RigidTips(model, case.tools)
     setup = process_time()
     points = search_points(case.size, case.load_at(0.0))

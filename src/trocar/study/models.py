@@ -87,6 +87,11 @@ MODELS: dict[str, Callable[[Case], AnyModel]] = {
 QUICK_MODELS = {**MODELS, "fea": _coarse_fea}  # a fifth of the unknowns, within 1.5 % instead of 0.2 %
 
 
+def usual_models(case: Case) -> tuple[str, ...]:
+    """Return the models a case is run through where none are named: finite elements take no rigid tip."""
+    return ("wave-solid", "wave-membrane") if case.rigid else ("wave-solid", "fea")
+
+
 def check_names(names: Sequence[str]) -> tuple[str, ...]:
     """Return the names, each once.
 
