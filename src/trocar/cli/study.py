@@ -31,13 +31,17 @@ def register(app: typer.Typer) -> None:
 
 def study(
     out: Annotated[Path, typer.Option(help="Folder for the results: new, empty, or an earlier study's.")],
-    tissue: Annotated[str | None, typer.Option(help="A tissue preset (trocar tissues list). [skin]")] = None,
-    support: Annotated[
-        str | None, typer.Option(help="edges, edges+base or base: how the block is held. [base]")
+    tissue: Annotated[
+        str | None, typer.Option(help="A tissue preset (trocar tissues list). Default: skin.")
     ] = None,
-    diameter_mm: Annotated[float | None, typer.Option(help="Diameter of the tool. [6]")] = None,
-    peak_n: Annotated[float | None, typer.Option(help="The paper's load. [5]")] = None,
-    small_n: Annotated[float | None, typer.Option(help="A load that linear theory can bear. [0.05]")] = None,
+    support: Annotated[
+        str | None, typer.Option(help="edges, edges+base or base: how the block is held. Default: base.")
+    ] = None,
+    diameter_mm: Annotated[float | None, typer.Option(help="Diameter of the tool. Default: 6.")] = None,
+    peak_n: Annotated[float | None, typer.Option(help="The paper's load. Default: 5.")] = None,
+    small_n: Annotated[
+        float | None, typer.Option(help="A load that linear theory can bear. Default: 0.05.")
+    ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Coarser meshes, fewer pictures.")] = False,
     preset: Annotated[
         Preset | None,
