@@ -38,7 +38,7 @@ def register(app: typer.Typer) -> None:
 def step(
     diameters_mm: Annotated[
         list[float] | None,
-        typer.Option("--diameter-mm", help="Of both tools; may be repeated. [default: 6, 8, 12]"),
+        typer.Option("--diameter-mm", help="Of both tools; may be repeated. Default: 6, 8, 12."),
     ] = None,
     tolerance: Annotated[
         float, typer.Option(help="Relative error that the modes are chosen for.")
