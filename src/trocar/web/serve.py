@@ -23,7 +23,7 @@ from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIO
 
 from trocar.errors import InputError, TrocarError
 from trocar.web.application import CLIENT, application
-from trocar.web.conversation import StreamLimits
+from trocar.web.conversation import FAREWELL_TIME, StreamLimits
 from trocar.web.doors import Doors
 from trocar.web.live import Live
 from trocar.web.sessions import Sessions
@@ -124,11 +124,32 @@ def serve(
 
 
 class _Stream(WebSocketsSansIOProtocol):
-    """uvicorn's WebSocket, which raises when the server stops while its client is just closing it."""
+    """uvicorn's WebSocket with two faults less.
+
+    It raises when the server stops while its client is just closing it; and where a message breaks the protocol it
+    closes with the rest unread, upon which the kernel resets the connection and the farewell may be lost with it.
+    """
+
+    _refused = False
 
     def shutdown(self) -> None:
         if not self.transport.is_closing():
             super().shutdown()
+
+    def data_received(self, data: bytes) -> None:
+        if not self._refused:
+            super().data_received(data)
+
+    def handle_parser_exception(self) -> None:
+        """Say why, and read on unheeded until the client has left, or not for long."""
+        self._refused = self.close_sent = True
+        assert self.conn.close_sent is not None
+        code, reason = self.conn.close_sent.code, self.conn.close_sent.reason
+        self.queue.put_nowait({"type": "websocket.disconnect", "code": code, "reason": reason})
+        self.transport.write(b"".join(self.conn.data_to_send()))
+        if self.transport.can_write_eof():
+            self.transport.write_eof()
+        self.close_timer = self.loop.call_later(FAREWELL_TIME, self.transport.close)
 
 
 class _Server(uvicorn.Server):
