@@ -75,17 +75,19 @@ def test_a_tip_that_jumps_is_found():
     assert told.startswith("left at 0.050 s: a tip faster than 1 m/s")
 
 
-def test_an_instrument_that_comes_or_goes_has_not_jumped():
+def test_an_instrument_that_goes_and_comes_back_elsewhere_has_not_jumped():
     class Coming(Hands):
         def poses(self, time):
             x, y, z = LEFT.handle
-            return replace(LEFT, handle=(x, y, z - 0.01 * (time >= 0.05)), present=time >= 0.05), RIGHT
+            return replace(
+                LEFT, handle=(x, y, z - 0.01 * (time >= 0.05)), present=not 0.03 <= time < 0.08
+            ), RIGHT
 
     device = Coming()
     assert complaints(device) == []
     left, _ = examine(device, INSTRUMENTS, SIZE, seconds=0.1)
     assert left.present == pytest.approx(0.5, abs=0.02)
-    assert left.changes == pytest.approx(10.0)  # once in 0.1 s
+    assert left.changes == pytest.approx(30.0)  # gone, moved and back in 0.1 s
 
 
 def test_a_device_that_answers_differently_is_found():
