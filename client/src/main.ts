@@ -31,6 +31,7 @@ function start(): void {
   const link = new Link(
     {
       hello: (hello) => {
+        active.steers = hello.steered_by === "page";
         trainer.greet(hello);
         panel.active(active.side);
       },

@@ -1,18 +1,21 @@
 /**
  * One turn of the page, at the display's own rate: devices move the hands, the hands go to the trainer, the newest
- * frame moves the tissue, and the picture is drawn. Instruments and head never wait for the trainer.
+ * frame moves the tissue, and the picture is drawn. Instruments and head never wait for the trainer. Where a device of
+ * the trainer's own moves the instruments, no hands are asked and none are sent: frames say where instruments are.
  */
 
 import type { Device } from "./input/device";
 import { NEITHER } from "./input/device";
 import { HeadsetDevice } from "./input/headset";
 import type { ScopeKeys } from "./input/scope-keys";
+import { asHeld, type Drawn } from "./instrument/drawn";
+import { Followed } from "./instrument/followed";
 import { Hands } from "./instrument/hands";
 import { showRim } from "./panel/controls";
 import type { Panel } from "./panel/panel";
 import type { Immersion } from "./scene/immersion";
 import type { Picture } from "./scene/picture";
-import { Scope, type ScopeAngle } from "./scene/scope";
+import { type Look, Scope, type ScopeAngle } from "./scene/scope";
 import type { Theatre } from "./scene/theatre";
 import type { Vector } from "./vector";
 import type { Frame } from "./wire/frame";
@@ -28,7 +31,9 @@ export class Trainer {
   private scope = new Scope([0, -0.1, 0.1], [0, 0, 0]);
   private centre: Vector = [0, 0, 0];
   private last = 0; // [ms]
+  private readonly followed = new Followed();
   private readonly touching: [boolean, boolean] = [false, false];
+  private readonly holding: [boolean, boolean] = [false, false];
   private tracked: ReturnType<Immersion["controllers"]> = NEITHER;
   private readonly headset = new HeadsetDevice(() => this.tracked);
 
@@ -45,6 +50,7 @@ export class Trainer {
   /** Take what the trainer says first; the same again, after a lost connection, changes nothing that is held. */
   greet(hello: Hello): void {
     this.panel.greet(hello);
+    this.followed.clear();
     if (JSON.stringify(hello) === JSON.stringify(this.hello)) return;
     const angle = this.scope.viewAngle;
     this.hello = hello;
@@ -73,17 +79,31 @@ export class Trainer {
     else this.picture.aim(look);
     this.theatre.showScopePort(!this.immersion.presenting);
     showRim(this.scope.viewAngle, this.scope.rim);
-    const hands = this.hands;
-    if (hands) {
-      const view = this.picture.view(look, this.centre);
-      this.tracked = this.immersion.controllers(xr);
-      for (const device of [...this.devices, this.headset]) hands.move(device, view, seconds);
-      for (const side of SIDES) this.link.pose(side, hands.poses[side], now);
-      this.theatre.place(hands);
-    }
+    if (this.steers && this.hands) this.steer(this.hands, look, now, seconds, xr);
     const frame = this.hello && this.newest();
     if (frame) this.show(frame, now);
+    const drawn = this.steers ? this.held() : this.followed.drawn(now);
+    if (drawn) this.theatre.place(drawn);
     this.picture.draw(now, this.centre);
+  }
+
+  /** Whether the hands of this page move the instruments. */
+  private get steers(): boolean {
+    return this.hello?.steered_by === "page";
+  }
+
+  private steer(hands: Hands, look: Look, now: number, seconds: number, xr: XRFrame | undefined): void {
+    const view = this.picture.view(look, this.centre);
+    this.tracked = this.immersion.controllers(xr);
+    for (const device of [...this.devices, this.headset]) hands.move(device, view, seconds);
+    for (const side of SIDES) this.link.pose(side, hands.poses[side], now);
+  }
+
+  private held(): readonly [Drawn, Drawn] | null {
+    const hands = this.hands;
+    if (!hands) return null;
+    const held = (side: 0 | 1): Drawn => asHeld(hands.poses[side], hands.reach(side), this.holding[side]);
+    return [held(0), held(1)];
   }
 
   private newest(): Frame | null {
@@ -97,11 +117,13 @@ export class Trainer {
 
   private show(frame: Frame, now: number): void {
     this.theatre.deform(frame);
+    this.followed.take(frame, now);
     this.panel.update(frame, now);
     frame.instruments.forEach((state, at) => {
       const side = at as 0 | 1;
-      if (state.touching && !this.touching[side]) this.immersion.pulse(side);
+      if (this.steers && state.touching && !this.touching[side]) this.immersion.pulse(side);
       this.touching[side] = state.touching;
+      this.holding[side] = state.holding;
     });
   }
 }

@@ -32,6 +32,7 @@ export function hello(): Hello {
     linear_force_n: 0.4,
     rate_hz: 1000,
     tasks: [],
+    steered_by: "page",
   };
 }
 

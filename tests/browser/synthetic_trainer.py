@@ -1,6 +1,6 @@
 """A trainer made of a few lines: serves the built client and speaks the live stream, with a tissue that only obeys.
 
-Where a tip lies below the rest surface the surface follows it in a smooth dent, and a force pushes back; besides, a
+Tips come from the page's hands, or from a script where the trainer steers; `obedient_tissue` follows them. Besides, a
 dent of its own wanders where `wander` says. Nothing here is the real server's code: the client is judged by the
 contract as it is written down.
 """
@@ -12,6 +12,7 @@ import mimetypes
 import struct
 import threading
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from http import HTTPStatus
@@ -23,16 +24,14 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Response
 from websockets.sync.server import serve
 
+from browser.obedient_tissue import NODES, SIZE, Touch, bump
+
 STATIC = Path(__file__).parents[2] / "src" / "trocar" / "web" / "static"
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; "
     "font-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-SIZE = 0.06  # of the square block [m]
-NODES = 64
 LAYERS = (("epidermis", 0.0001), ("dermis", 0.0015), ("fat", 0.012))
-STIFFNESS = 120.0  # [N/m]
-WIDTH = 0.006  # of a dent [m]
 LINEAR = 0.4  # [N]
 UNACKNOWLEDGED = 2
 PERIOD = 1 / 60  # between frames [s]
@@ -53,7 +52,7 @@ def instrument(name: str, tip: str, port: tuple[float, float, float], at: tuple[
     }
 
 
-def hello(left: str = "grasper", right: str = "probe") -> dict:
+def hello(left: str = "grasper", right: str = "probe", steered_by: str = "page") -> dict:
     """Return the greeting, with tips of some kinds."""
     return {
         "type": "hello",
@@ -72,7 +71,18 @@ def hello(left: str = "grasper", right: str = "probe") -> dict:
         "linear_force_n": LINEAR,
         "rate_hz": 1000,
         "tasks": [],
+        "steered_by": steered_by,
     }
+
+
+@dataclass(frozen=True)
+class Hand:
+    """Where a script holds an instrument."""
+
+    tip: tuple[float, float, float]  # [m]
+    jaw: float = 1.0
+    roll: float = 0.0
+    present: bool = True
 
 
 @dataclass
@@ -92,6 +102,7 @@ class SyntheticTrainer:
 
     greeting: dict = field(default_factory=hello)
     wander: tuple[float, float, float] | None = None  # x, y, depth [m] of a dent of its own
+    script: Callable[[float], tuple[Hand, Hand]] | None = None  # of the time since the start [s], instead of poses
     status: int = 1
     poses: dict[int, Pose] = field(default_factory=dict)
     acknowledged: list[int] = field(default_factory=list)
@@ -102,6 +113,8 @@ class SyntheticTrainer:
     port: int = 0
     answering: threading.Event = field(default_factory=threading.Event)
     _connections: list = field(default_factory=list)
+    _touches: tuple[Touch, Touch] = field(default_factory=lambda: (Touch(), Touch()))
+    _started: float = field(default_factory=time.monotonic)
 
     def __post_init__(self) -> None:
         self.answering.set()
@@ -120,29 +133,45 @@ class SyntheticTrainer:
         along = np.subtract(shape["port_m"], handle)
         return handle + shape["length_m"] * along / np.linalg.norm(along)
 
+    def hands(self, now: float) -> tuple[Hand, Hand]:
+        """Return both instruments at a time since the start [s]."""
+        if self.script is not None:
+            return self.script(now)
+        left, right = (
+            Hand(tuple(self.tip(which)), pose.jaw, pose.roll) if pose else Hand(tuple(self.tip(which)))
+            for which, pose in ((which, self.poses.get(which)) for which in (0, 1))
+        )
+        return left, right
+
     def frame(self, sequence: int) -> bytes:
         """Return the present state as a frame."""
-        x = np.linspace(0, SIZE, NODES)
-        top = np.zeros((NODES, NODES))
+        now = time.monotonic() - self._started
+        moved = np.zeros((3, NODES, NODES))
         if self.wander is not None:
-            top += dent(x, *self.wander)
+            moved[2] -= self.wander[2] * bump(*self.wander[:2])
         records = []
-        for which in (0, 1):
-            tip = self.tip(which)
-            depth = float(np.clip(-tip[2], 0.0, 0.009)) if np.all((tip[:2] > 0) & (tip[:2] < SIZE)) else 0.0
-            top += dent(x, tip[0], tip[1], depth)
-            force = (0.0, 0.0, STIFFNESS * depth)
-            flags = 1 | (2 if depth else 0)
-            records.append(struct.pack("<8f6fIf", *tip, 0, 0, -1, 0, 0, *force, *force, flags, depth))
+        for shape, touch, hand in zip(
+            self.greeting["instruments"], self._touches, self.hands(now), strict=True
+        ):
+            tip = np.array(hand.tip)
+            touch.follow(tip if hand.present else np.array(shape["port_m"]), hand.jaw)
+            moved += touch.field()
+            along = np.subtract(tip, shape["port_m"])
+            along /= np.linalg.norm(along)
+            flags = touch.flags if hand.present else 0
+            forces = (*touch.force, *touch.force)
+            records.append(
+                struct.pack("<8f6fIf", *tip, *along, hand.roll, hand.jaw, *forces, flags, touch.depth)
+            )
         rest = np.array([0.0, *np.cumsum([thickness for _, thickness in LAYERS])])
         fade = 1 - rest[:-1] / rest[-1]  # deeper layers move less
-        heights = (1e3 * fade[:, None, None] * top).astype("<f2")
+        planes = np.concatenate([fade[:, None, None] * moved[2], moved[:2]])
         header = struct.pack(
-            "<IIQd2IfIffI4HI", 0x314F5254, sequence, int(1e3 * time.monotonic()), time.monotonic(),
+            "<IIQd2IfIffI4HI", 0x314F5254, sequence, int(1e3 * now), now,
             *(self.poses[which].sequence if which in self.poses else 0 for which in (0, 1)),
-            999.6, 3, 24.0, 61.0, self.status, len(LAYERS), NODES, NODES, 0, 0,
+            999.6, 3, 24.0, 61.0, self.status, len(LAYERS), NODES, NODES, 1, 0,
         )  # fmt: skip
-        return header + b"".join(records) + heights.tobytes()
+        return header + b"".join(records) + (1e3 * planes).astype("<f2").tobytes()
 
     def converse(self, connection) -> None:
         """Talk to one page until it leaves."""
@@ -225,10 +254,3 @@ class SyntheticTrainer:
         threading.Thread(target=server.serve_forever, daemon=True).start()
         return server
 
-
-def dent(x: np.ndarray, at_x: float, at_y: float, depth: float) -> np.ndarray:
-    """Return a smooth hollow [m] on the grid of nodes, zero at the edges."""
-    hollow = np.exp(-((x[None, :] - at_x) ** 2 + (x[:, None] - at_y) ** 2) / (2 * WIDTH**2))
-    edge = np.minimum(x, SIZE - x) / SIZE * 20
-    held = np.clip(np.minimum(edge[None, :], edge[:, None]), 0, 1)
-    return -depth * hollow * held

@@ -3,7 +3,7 @@
 import pytest
 from pydantic import ValidationError
 
-from trocar.web.messages import Acknowledgement, Camera, Notice, Reset, read_client_message
+from trocar.web.messages import Acknowledgement, Camera, Hello, Notice, Reset, read_client_message
 from web.scripted_source import HELLO
 
 
@@ -34,6 +34,13 @@ def test_what_it_may_not(text):
 def test_a_greeting_holds_finite_numbers_only():
     with pytest.raises(ValidationError):
         Camera(port_m=(0.0, 0.0, float("nan")), target_m=(0.0, 0.0, 0.0))
+
+
+def test_the_pages_hands_steer_unless_the_trainer_says_otherwise():
+    assert HELLO.steered_by == "page"
+    assert HELLO.model_copy(update={"steered_by": "trainer"}).model_dump()["steered_by"] == "trainer"
+    with pytest.raises(ValidationError):
+        Hello.model_validate(HELLO.model_dump() | {"steered_by": "nobody"})
 
 
 def test_a_notice_has_a_known_level():

@@ -41,6 +41,7 @@ def test_types_are_the_tightest_there_are():
     assert interface("InstrumentShape")["name"] == '"left" | "right"'
     assert interface("InstrumentShape")["port_m"] == "readonly [number, number, number]"
     assert interface("Hello")["protocol"] == "1"
+    assert interface("Hello")["steered_by"] == '"page" | "trainer"'
     assert interface("Hello")["instruments"] == "readonly InstrumentShape[]"
     assert interface("Acknowledgement") == {"type": '"ack"', "sequence": "number"}
     assert "export type ServerMessage = Hello | Notice;" in TEXT

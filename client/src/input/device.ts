@@ -58,10 +58,12 @@ export function across(handle: Vector, port: Vector, view: View, right: number, 
 /** Which instrument mouse and keyboard move; both share it. */
 export class ActiveHand {
   side: Side = RIGHT;
+  steers = true; // false while a device of the trainer's own moves the instruments: hands here then do nothing
 
   constructor(private readonly told: (side: Side) => void = () => undefined) {}
 
   swap(): void {
+    if (!this.steers) return;
     this.side = this.side === LEFT ? RIGHT : LEFT;
     this.told(this.side);
   }

@@ -33,6 +33,7 @@ export class Keyboard implements Device {
 
   /** Take a key that went down; returns whether it was one of ours. */
   press(code: string, shift: boolean, repeat: boolean): boolean {
+    if (!this.active.steers) return false;
     this.slow = shift;
     if (code === "Tab" && !shift) {
       if (!repeat) this.active.swap();

@@ -22,6 +22,7 @@ export class Mouse implements Device {
 
   /** Take a movement over the picture [px]; with `deep` up and down mean in and out. */
   move(right: number, down: number, deep: boolean): void {
+    if (!this.active.steers) return;
     if (deep) {
       this.inwards -= down;
       return;
@@ -32,11 +33,13 @@ export class Mouse implements Device {
 
   /** Take a turn of the wheel [px]: away from the user is inwards; with `turning` it rolls the shaft. */
   scroll(down: number, turning: boolean): void {
+    if (!this.active.steers) return;
     if (turning) this.roll += (down / NOTCH) * TURN;
     else this.wheel -= (down / NOTCH) * SLIDE;
   }
 
   squeeze(down: boolean): void {
+    if (!this.active.steers) return;
     if (this.squeezing && !down) this.releasing = true;
     this.squeezing = down;
   }

@@ -32,7 +32,7 @@ export class ForceBar {
   /** Show what a frame says. */
   update(state: InstrumentState): void {
     const force = norm(state.force);
-    const doing = state.holding ? "holds tissue" : state.touching ? "touches" : state.present ? "free" : "not in the hand";
+    const doing = state.holding ? "holding tissue" : state.touching ? "touching" : state.present ? "free" : "not in the hand";
     this.show(force, doing);
   }
 

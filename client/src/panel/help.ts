@@ -4,7 +4,10 @@ import { byId, make } from "./element";
 
 type Rows = readonly (readonly [string, string])[];
 
-const TABLES: readonly (readonly [string, Rows])[] = [
+/** What moves instruments is left out while a device of the trainer's own does. */
+const OF_HANDS = "of-hands";
+
+const TABLES: readonly (readonly [string, Rows, string?])[] = [
   [
     "Keyboard, instruments",
     [
@@ -14,6 +17,7 @@ const TABLES: readonly (readonly [string, Rows])[] = [
       ["Z  X", "turn the shaft"],
       ["Space", "close or open the jaw"],
     ],
+    OF_HANDS,
   ],
   [
     "Keyboard, endoscope",
@@ -37,6 +41,7 @@ const TABLES: readonly (readonly [string, Rows])[] = [
       ["left button", "squeeze the jaw shut"],
       ["right button", "the other hand"],
     ],
+    OF_HANDS,
   ],
   [
     "Gamepad",
@@ -46,6 +51,7 @@ const TABLES: readonly (readonly [string, Rows])[] = [
       ["pad left and right; X, B", "turn the shaft"],
       ["L2, R2", "squeeze the jaw shut"],
     ],
+    OF_HANDS,
   ],
   [
     "Headset",
@@ -53,20 +59,21 @@ const TABLES: readonly (readonly [string, Rows])[] = [
       ["controllers", "each is a handle, held in the fist"],
       ["trigger", "squeeze the jaw shut"],
     ],
+    OF_HANDS,
   ],
 ];
 
 /** Fill the dialog and return what opens it. */
 export function makeHelp(): () => void {
   const dialog = byId("help", HTMLDialogElement);
-  byId("help-keys", HTMLDivElement).append(...TABLES.map(([title, rows]) => table(title, rows)));
+  byId("help-keys", HTMLDivElement).append(...TABLES.map(([title, rows, kind]) => table(title, rows, kind)));
   return () => {
     if (!dialog.open) dialog.showModal();
   };
 }
 
-function table(title: string, rows: Rows): HTMLTableElement {
-  const made = make("table");
+function table(title: string, rows: Rows, kind = ""): HTMLTableElement {
+  const made = make("table", kind);
   made.createCaption().textContent = title;
   const body = made.createTBody();
   for (const [key, does] of rows) {

@@ -35,14 +35,19 @@ export class Notices {
   }
 
   private show(now: number): void {
-    // What stops everything is said first; a notice outlives its time until something else is to be said.
-    let [level, text] = this.connection;
-    if (level === "info") {
-      if (this.notice && (now < this.until || !this.servo[1])) [level, text] = [this.notice.level, this.notice.text];
-      else if (this.servo[1]) [level, text] = this.servo;
-    }
+    const [level, text] = this.said(now);
     this.element.dataset["level"] = level;
     say(this.element, text);
+  }
+
+  /** Trouble with the connection comes first, then a servo that stopped, then a new notice, then what the servo warns of. */
+  private said(now: number): readonly [Level, string] {
+    if (this.connection[0] !== "info") return this.connection;
+    const servo = this.servo[1] ? this.servo : null;
+    const notice = this.notice && ([this.notice.level, this.notice.text] as const);
+    if (!servo || !notice) return notice ?? servo ?? this.connection;
+    const heard = servo[0] !== "stopped" || notice[0] === "stopped";
+    return now < this.until && heard ? notice : servo;
   }
 }
 
@@ -62,7 +67,7 @@ function sentence(state: Connection, reason: string): readonly [Level, string] {
 
 function trouble(status: Status): readonly [Level, string] {
   if (!status.alive) return ["stopped", "The tissue stands still: its servo has stopped, and there is no force."];
-  if (status.forcesCut) return ["stopped", "Forces are cut, and the tissue is left alone."];
+  if (status.forcesCut) return ["stopped", "The trainer lost touch with its servo: forces are off."];
   if (status.degraded) return ["warning", "This machine does not hold the tissue's full rate."];
   if (status.beyondLinear) return ["warning", "A force is beyond the linear range; what you feel is not validated there."];
   return ["info", ""];

@@ -5,6 +5,7 @@ import type { Hello } from "../wire/messages";
 import { byId, say } from "./element";
 import { ForceBar } from "./force-bar";
 import { Notices } from "./notices";
+import { showSteering } from "./steering";
 
 const REFRESH = 100; // ten times a second is what a reader can follow [ms]
 
@@ -23,7 +24,9 @@ export class Panel {
     say(byId("linear", HTMLElement), `The mark is the end of the linear range, ${hello.linear_force_n.toFixed(2)} N.`);
     this.bars = hello.instruments.map((shape) => new ForceBar(`${shape.name}, ${shape.tip}`, hello.linear_force_n));
     byId("bars", HTMLDivElement).replaceChildren(...this.bars.map((bar) => bar.element));
-    this.names = hello.instruments.map((shape) => `${shape.name} hand: ${shape.tip}`);
+    const watching = hello.steered_by === "trainer";
+    this.names = hello.instruments.map((shape) => (watching ? "moved by the trainer" : `${shape.name} hand: ${shape.tip}`));
+    showSteering(hello.steered_by);
   }
 
   /** Say which instrument mouse and keyboard move. */

@@ -4,6 +4,7 @@ import { Color, FrontSide, Group, Mesh } from "three";
 
 import type { Frame } from "../wire/frame";
 import type { Hello } from "../wire/messages";
+import type { ContactShade } from "./contact-shade";
 import { CutFace } from "./cut-face";
 import { type Look, makeMaps, type Maps, WET } from "./skin-texture";
 import { Surface } from "./surface";
@@ -14,9 +15,9 @@ const CUT: readonly Look[] = [
   { ...WET, base: [214, 150, 132], patch: [188, 110, 98], vesselShare: 0 },
   { ...WET, base: [222, 158, 150], patch: [190, 98, 96], pale: [240, 214, 202], vesselShare: 0.4 },
   {
-    base: [238, 200, 112],
-    patch: [226, 172, 84],
-    pale: [246, 222, 160],
+    base: [250, 226, 158],
+    patch: [244, 208, 136],
+    pale: [252, 236, 190],
     vessel: [150, 50, 44],
     vesselShare: 0.35,
     lobules: 1,
@@ -28,11 +29,11 @@ export class Block {
   private readonly surface: Surface;
   private readonly cuts: CutFace[] = [];
 
-  constructor(hello: Hello, maps: Maps) {
+  constructor(hello: Hello, maps: Maps, shade: ContactShade) {
     const [nx, ny] = hello.grid;
     const size = hello.tissue.size_m;
     this.surface = new Surface(size, nx, ny);
-    const wet = wetMaterial(maps, { tint: new Color(1, 1, 1), film: 0.9, relief: 1, side: FrontSide });
+    const wet = wetMaterial(maps, { tint: new Color(1, 1, 1), film: 0.9, relief: 1, side: FrontSide, shade });
     wet.vertexColors = true; // hollows are darker
     this.add(new Mesh(this.surface.geometry, wet));
     let top = 0;
@@ -44,6 +45,7 @@ export class Block {
         film: 0.6,
         relief: 0.8,
         side: FrontSide,
+        shade,
       });
       this.add(new Mesh(cut.geometry, material));
       this.cuts.push(cut);

@@ -1,13 +1,15 @@
-/** One instrument: shaft, tip and grip, placed from a handle pose. */
+/** One instrument: shaft, tip and grip, placed where it is drawn. */
 
 import { CapsuleGeometry, Group, Matrix4, Mesh, type Object3D, Vector3 } from "three";
 
-import type { Reach } from "../instrument/fulcrum";
-import type { HandlePose } from "../instrument/pose";
+import type { Drawn } from "../instrument/drawn";
 import { cross, dot, norm, scale, subtract, turn, unit, type Vector } from "../vector";
 import type { InstrumentShape } from "../wire/messages";
+import type { ContactShade } from "./contact-shade";
 import { RUBBER, SLEEVE, STEEL } from "./steel";
 import { makeTip, rod, type TipModel } from "./tips";
+
+const HELD = 0.08; // how far a jaw stays open that is closed on a fold of tissue
 
 export class Instrument {
   readonly group = new Group();
@@ -30,19 +32,22 @@ export class Instrument {
       part.receiveShadow = true;
     });
     this.group.matrixAutoUpdate = false;
+    this.group.visible = false; // until it is known where it is
   }
 
-  /** Place it where the hand holds it. */
-  place(pose: HandlePose, reach: Reach): void {
-    this.group.visible = pose.present;
-    const back = scale(reach.direction, -1); // from tip to handle
-    const y = turn(reference(back), reach.direction, pose.roll);
+  /** Place it. @param shade what it takes light away from. */
+  place(drawn: Drawn, side: 0 | 1, shade: ContactShade): void {
+    this.group.visible = drawn.present;
+    const back = scale(drawn.direction, -1); // from tip to handle
+    const y = turn(reference(back), drawn.direction, drawn.roll);
     const x = cross(y, back);
     this.frame.makeBasis(new Vector3(...x), new Vector3(...y), new Vector3(...back));
-    this.frame.setPosition(...reach.tip);
+    this.frame.setPosition(...drawn.tip);
     this.group.matrix.copy(this.frame);
     this.group.matrixWorldNeedsUpdate = true;
-    this.tip.open(pose.jaw);
+    const jaw = drawn.holding ? HELD : drawn.jaw;
+    this.tip.open(jaw);
+    shade.place(side, drawn.tip, back, this.tip.solidFrom(jaw), drawn.present ? this.tip.girth : 0);
   }
 }
 

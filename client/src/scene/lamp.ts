@@ -3,8 +3,8 @@
 import { Color, HemisphereLight, type Matrix4, type Scene, SpotLight, Vector3 } from "three";
 
 const BESIDE = new Vector3(0.0075, 0.009, 0.002); // of the lens, to the right, up and back [m]
-const POWER = 0.03; // [cd], for a picture that is bright at the working distance
-const WORKING_DISTANCE = 0.085; // at which POWER is right [m]
+const POWER = 0.0205; // [cd], for a picture that is bright at the working distance
+const WORKING_DISTANCE = 0.07; // at which POWER is right [m]
 const HALF_ANGLE = 0.82; // [rad]
 
 export class Lamp {

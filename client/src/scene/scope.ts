@@ -7,7 +7,7 @@
 import { add, clamp, cross, dot, norm, scale, subtract, turn, unit, type Vector } from "../vector";
 
 export const FIELD = 72; // full angle of view of the round picture [degrees], as common 10 mm scopes have
-const WORKING_DISTANCE = 0.085; // from eye to target at the start [m]
+const WORKING_DISTANCE = 0.07; // from eye to target at the start [m]
 const NEAREST = 0.02; // to the target [m]
 const LEAST_INSIDE = 0.005; // of the scope beyond its port [m]
 const MOST_SWING = 0.9; // from the line port to target [rad]

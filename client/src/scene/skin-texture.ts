@@ -29,7 +29,7 @@ export interface Look {
 
 export const WET: Look = {
   base: [214, 128, 112],
-  patch: [172, 74, 66],
+  patch: [188, 92, 80],
   pale: [224, 164, 142],
   vessel: [134, 32, 38],
   vesselShare: 0.7,
@@ -66,7 +66,7 @@ export function makeMaps(look: Look, seed: number, size: number): Maps {
       const white = smoothstep(0.3, 1.0, strand) * 0.3;
       const vessel = (vein[at] as number) * look.vesselShare;
       const bulge = look.lobules > 0 ? lobule(u + 0.02 * cloud, v + 0.02 * cloud) : 1;
-      const crease = 1 - look.lobules * 0.3 * (1 - smoothstep(0, 0.35, bulge));
+      const crease = 1 - look.lobules * 0.16 * (1 - smoothstep(0, 0.3, bulge));
       for (let k = 0; k < 3; k++) {
         const blood = mix(look.base[k] as number, look.patch[k] as number, red);
         const strands = mix(blood, look.pale[k] as number, white);
@@ -77,7 +77,7 @@ export function makeMaps(look: Look, seed: number, size: number): Maps {
       wet[4 * at] = 255 * mix(0.35, 1, smoothstep(-0.3, 0.3, noise.sum(u + 0.71, v + 0.13, 6, 2)));
       const folds = noise.sum(u + 0.5, v + 0.5, 9, 2);
       const grain = noise.sum(u, v, 34, 2);
-      height[at] = 0.34 * folds + 0.05 * grain + 0.06 * vessel + 0.5 * look.lobules * smoothstep(0, 0.8, bulge); // [mm]
+      height[at] = 0.34 * folds + 0.05 * grain + 0.06 * vessel + 0.28 * look.lobules * smoothstep(0, 0.9, bulge); // [mm]
     }
   }
   return {

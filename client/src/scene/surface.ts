@@ -5,8 +5,8 @@ import { BufferAttribute, BufferGeometry } from "three";
 import type { Frame } from "../wire/frame";
 import { TILE } from "./skin-texture";
 
-const NEARBY = 0.004; // how far round a node its surroundings are looked at [m]
-const SHUT_OFF = 1.6; // light lost for a hollow as deep as that is wide, against light kept
+const NEARBY = 0.005; // how far round a node its surroundings are looked at [m]
+const SHUT_OFF = 3.2; // light lost for a hollow as deep as that is wide, against light kept
 
 export class Surface {
   readonly geometry = new BufferGeometry();

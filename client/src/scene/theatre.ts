@@ -2,11 +2,12 @@
 
 import { Color, Group, Scene } from "three";
 
-import type { Hands } from "../instrument/hands";
+import type { Drawn } from "../instrument/drawn";
 import type { Frame } from "../wire/frame";
 import type { Hello, InstrumentShape } from "../wire/messages";
 import { Block } from "./block";
 import { makeCavity } from "./cavity";
+import { ContactShade } from "./contact-shade";
 import { Instrument } from "./instrument";
 import { Lamp } from "./lamp";
 import { makePort } from "./port";
@@ -21,6 +22,7 @@ export class Theatre {
   private block: Block | null = null;
   private instruments: readonly Instrument[] = [];
   private scopePort = new Group();
+  private readonly shade = new ContactShade();
   private readonly maps = makeMaps(WET, 3, 512);
 
   constructor() {
@@ -33,8 +35,8 @@ export class Theatre {
   build(hello: Hello): void {
     this.content.clear();
     const [a, b] = hello.tissue.size_m;
-    this.block = new Block(hello, this.maps);
-    this.content.add(this.block.group, makeCavity(hello, this.maps));
+    this.block = new Block(hello, this.maps, this.shade);
+    this.content.add(this.block.group, makeCavity(hello, this.maps, this.shade));
     this.instruments = hello.instruments.map((shape: InstrumentShape) => {
       const instrument = new Instrument(shape);
       this.content.add(instrument.group, makePort(shape.port_m, [a / 2, b / 2, 0], shape.shaft_radius_m));
@@ -54,11 +56,11 @@ export class Theatre {
     this.scopePort.visible = shown;
   }
 
-  /** Show the instruments as the hands hold them now. */
-  place(hands: Hands): void {
-    this.instruments.forEach((instrument, side) => {
-      const which = side as 0 | 1;
-      instrument.place(hands.poses[which], hands.reach(which));
+  /** Show both instruments where they are drawn now. */
+  place(drawn: readonly [Drawn, Drawn]): void {
+    this.instruments.forEach((instrument, at) => {
+      const side = at as 0 | 1;
+      instrument.place(drawn[side], side, this.shade);
     });
   }
 }

@@ -23,10 +23,13 @@ import { DARK_STEEL, GOLD, STEEL } from "./steel";
 export interface TipModel {
   readonly group: Group;
   readonly length: number; // from the working end to where the shaft begins [m]
+  readonly girth: number; // radius near the working end [m]
   open(jaw: number): void; // 0 closed to 1 open
+  solidFrom(jaw: number): number; // how far from the working end there is something in the middle [m]
 }
 
 const still = (): void => undefined;
+const throughout = (): number => 0;
 
 /** Make a tip for a shaft of some radius [m]. */
 export function makeTip(tip: Tip, radius: number): TipModel {
@@ -34,9 +37,9 @@ export function makeTip(tip: Tip, radius: number): TipModel {
     case "probe":
       return makeProbe(radius);
     case "grasper":
-      return makeJaws(radius, { length: 0.016, opening: 0.42, both: true, teeth: 9, liner: STEEL });
+      return makeJaws(radius, { length: 0.016, opening: 0.32, both: true, teeth: 9, liner: STEEL });
     case "needle-holder":
-      return makeJaws(radius, { length: 0.011, opening: 0.5, both: false, teeth: 0, liner: GOLD });
+      return makeJaws(radius, { length: 0.011, opening: 0.45, both: false, teeth: 0, liner: GOLD });
     case "hook":
       return makeHook(radius);
   }
@@ -49,7 +52,7 @@ function makeProbe(radius: number): TipModel {
   const cap = new Mesh(new SphereGeometry(radius * 0.8, 24, 16), STEEL);
   cap.position.z = radius * 0.8;
   group.add(cap);
-  return { group, length, open: still };
+  return { group, length, girth: radius * 0.8, open: still, solidFrom: throughout };
 }
 
 interface Jaws {
@@ -62,6 +65,7 @@ interface Jaws {
 
 function makeJaws(radius: number, jaws: Jaws): TipModel {
   const group = new Group();
+  const reach = jaws.length + 0.003;
   const yoke = 0.008;
   group.add(rod(radius * 0.98, yoke, jaws.length + 0.002, DARK_STEEL));
   const pin = new Mesh(new CylinderGeometry(radius * 0.3, radius * 0.3, radius * 2.1, 16), STEEL);
@@ -70,7 +74,7 @@ function makeJaws(radius: number, jaws: Jaws): TipModel {
   group.add(pin);
   const hinges = [1, -1].map((side) => {
     const hinge = new Group();
-    hinge.position.z = jaws.length + 0.003;
+    hinge.position.z = reach;
     hinge.add(makeJaw(radius, jaws, side));
     group.add(hinge);
     return hinge;
@@ -78,7 +82,11 @@ function makeJaws(radius: number, jaws: Jaws): TipModel {
   return {
     group,
     length: jaws.length + 0.002 + yoke,
+    girth: radius * 0.55,
+    solidFrom: (jaw) => (jaws.both ? jaw * reach : 0),
     open: (jaw) => {
+      // Ends that part move back along the shaft; what touches is the ends, so they stay at the working end's height.
+      if (jaws.both) group.position.z = -reach * (1 - Math.cos(jaw * jaws.opening));
       const [upper, lower] = hinges as [Group, Group];
       upper.rotation.x = jaw * jaws.opening;
       lower.rotation.x = jaws.both ? -jaw * jaws.opening : 0;
@@ -150,7 +158,7 @@ function makeHook(radius: number): TipModel {
   group.add(end);
   const collar = rod(radius * 0.85, 0.006, 0.012, DARK_STEEL);
   group.add(collar);
-  return { group, length: 0.018, open: still };
+  return { group, length: 0.018, girth: thin, open: still, solidFrom: throughout };
 }
 
 /** A rod along +z from some height. */

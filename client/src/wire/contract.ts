@@ -26,6 +26,8 @@ export interface Hello {
   /** requested ticks of the servo in a second */
   readonly rate_hz: number;
   readonly tasks: readonly string[];
+  /** whose hands move the instruments: the page's, or a device of the trainer's own */
+  readonly steered_by: "page" | "trainer";
 }
 
 /** A straight shaft through a port; the tip lies `length_m` from the handle, through the port. */

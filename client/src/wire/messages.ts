@@ -9,6 +9,7 @@ export type Tip = InstrumentShape["tip"];
 export class WireError extends Error {}
 
 const LEVELS: readonly unknown[] = ["info", "warning", "stopped"];
+const STEERERS: readonly unknown[] = ["page", "trainer"];
 const TIPS: readonly unknown[] = ["probe", "grasper", "needle-holder", "hook"];
 
 /** Read one text message of the server. */
@@ -51,6 +52,7 @@ function readHello(message: unknown): Hello {
     isNumbers(hello.camera.target_m, 3) &&
     Number.isFinite(hello.linear_force_n) &&
     Number.isFinite(hello.rate_hz) &&
+    STEERERS.includes(hello.steered_by) &&
     Array.isArray(hello.instruments) &&
     hello.instruments.length === 2 &&
     hello.instruments.every(isInstrument);

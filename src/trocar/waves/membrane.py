@@ -23,6 +23,7 @@ from trocar.waves.footprint import modal_forces
 from trocar.waves.oscillators import Oscillators
 from trocar.waves.series import Field, Series
 from trocar.waves.stack import Stack, derived_stack
+from trocar.waves.near_field import SMOOTH, layered_compliance
 from trocar.waves.state import WaveState, require_step
 
 
@@ -35,6 +36,7 @@ class WaveMembrane:
         modes: highest m and n of the series.
         support: whose block the coefficients describe; told to whoever asks, it changes nothing here.
         fit_error: how far the fit that made the coefficients missed its target [1]; None where there was none.
+        tissue: the layers the coefficients imitate, where they do: waves too short for sheets are then the layers' own.
 
     Raises:
         InputError: a size or mode count is impossible.
@@ -49,9 +51,11 @@ class WaveMembrane:
         modes: tuple[int, int] = (48, 48),
         support: Support | str = Support.EDGES,
         fit_error: float | None = None,
+        tissue: Tissue | None = None,
     ) -> None:
         self.stack = stack
         self.fit_error = fit_error
+        self._tissue = tissue
         self.size = size
         self.support = Support(support)
         self.layer_names = tuple(sheet.name for sheet in stack.sheets)
@@ -89,7 +93,9 @@ class WaveMembrane:
     ) -> WaveMembrane:
         """Build one with coefficients fitted to `WaveSolid`'s response (see `fit`) under tools of these radii [m]."""
         fit = fitted_stack(tissue, size=size, support=Support(support), radii=radii)
-        return cls(fit.stack, size=size, modes=modes, support=support, fit_error=fit.error)
+        return cls(
+            fit.stack, size=size, modes=modes, support=support, fit_error=fit.error, tissue=tissue
+        )
 
     @property
     def modes(self) -> tuple[int, int]:
@@ -168,9 +174,24 @@ class WaveMembrane:
         return table
 
     @property
+    def surface_modes(self) -> tuple[int, int]:
+        """Highest m and n that move."""
+        return self.modes
+
+    @property
+    def surface_oscillators(self) -> Oscillators:
+        """One group per mode (m, n), n fastest: from a modal force [N] to u_z of every layer's upper face [m]."""
+        return self.oscillators
+
+    @property
     def series(self) -> Series:
         """The waves."""
         return self._series
+
+    @property
+    def least_window(self) -> float:
+        """Width of the narrowest window whose waves the sheets answer for [m]: they cannot imitate a local dent."""
+        return SMOOTH if self._tissue is not None else 0.0
 
     @cached_property
     def wave_compliance(self) -> FloatArray:
@@ -188,8 +209,15 @@ class WaveMembrane:
         return np.zeros((len(pressures), len(pressures)))
 
     def compliance(self, k: FloatArray, *, finest: float) -> FloatArray:
-        """Return every face's static amplitude per unit of pressure's [m/Pa], (J,) to (J, faces); no direction."""
-        return self.stack.compliance(k)
+        """Return every face's static amplitude per unit amplitude of pressure [m/Pa], (J,) to (J, faces).
+
+        Args:
+            k: wavenumbers [1/m], in no direction.
+            finest: width of the smallest pad that presses [m].
+        """
+        if self._tissue is None:
+            return self.stack.compliance(k)
+        return layered_compliance(self._tissue, k, base_held=self.support.base_held, finest=finest)
 
     def modal_energy(self, state: WaveState) -> FloatArray:
         """Return kinetic plus elastic energy of each mode (m, n), all layers together [J], shape (M, N)."""

@@ -21,9 +21,14 @@ from scipy.special import j0
 
 from trocar.errors import InputError
 from trocar.model import FloatArray
+from trocar.tissues.tissue import Tissue
+from trocar.waves.banded import surface_compliance
+from trocar.waves.thin_layer import Wavenumbers, vertical_and_along
 
 Compliance = Callable[[FloatArray], FloatArray]
 
+SMOOTH = 2e-3  # [m] window beyond which fitted sheets answer as layers do; shorter waves are the layers' own
+_FINE = 0.4  # first element in widths of a pad: its waves of 3/width are then resolved to 1e-3
 _ENDS = 6.5  # highest wavenumber times the pad's width: exp(-6.5^2/2) is 7e-10
 _PER_DECAY = 40  # rows of the table to the pad's width, and later to the distance: linear in between to 1e-4
 _EVEN = 3.0  # widths of a pad within which rows lie evenly
@@ -77,6 +82,23 @@ def near_field(
     left_out = np.exp(-0.5 * (pad * k) ** 2) - np.exp(-0.5 * (window * k) ** 2)
     spectrum = (weights * left_out * k / (2 * np.pi))[:, None] * compliance(k)
     return NearField(radii=radii, table=np.array([j0(k * radius) @ spectrum for radius in radii]))
+
+
+def layered_compliance(tissue: Tissue, k: FloatArray, *, base_held: bool, finest: float) -> FloatArray:
+    """Return every face's static amplitude per unit amplitude of pressure on layers [m/Pa], far from the sides.
+
+    Args:
+        tissue: the layers.
+        k: wavenumbers [1/m], in no direction, shape (J,).
+        base_held: whether the lower face cannot move.
+        finest: width of the smallest pad that presses [m].
+
+    Returns:
+        Shape (J, faces).
+    """
+    layers = vertical_and_along(tissue, base_held=base_held, finest=_FINE * finest)
+    result: FloatArray = surface_compliance(layers, Wavenumbers(k, 0.5 * k**2, 0.5 * k**2))[:, :, 0, 0]
+    return result
 
 
 def _quadrature(first: float, last: float, furthest: float) -> tuple[FloatArray, FloatArray]:

@@ -31,6 +31,11 @@ class Pressable(Protocol):
         ...
 
     @property
+    def least_window(self) -> float:
+        """Width of the narrowest window whose waves are the model's own [m]; `compliance` answers for shorter ones."""
+        ...
+
+    @property
     def wave_compliance(self) -> FloatArray:
         """Every face's static amplitude per unit amplitude of pressure [m/Pa], shape (faces, M + 1, N + 1)."""
         ...
@@ -63,7 +68,7 @@ class Pads:
     def __init__(self, model: Pressable, places: FloatArray, width: float) -> None:
         self._model, self._places = model, places
         series = model.series
-        self._window = _ENDS / min(series.kx[-1], series.ky[-1])
+        self._window = max(_ENDS / min(series.kx[-1], series.ky[-1]), model.least_window)
         if not 0 < width < self._window:
             raise InputError(
                 "pads: width", f"above 0 and below the series' resolution, {self._window:g} m", width

@@ -20,12 +20,12 @@ from trocar.waves.banded import surface_compliance
 from trocar.waves.clamped import SIDE_MODES, ClampedSides
 from trocar.waves.footprint import modal_forces
 from trocar.waves.oscillators import Oscillators
+from trocar.waves.near_field import layered_compliance
 from trocar.waves.ritz import ritz_oscillators
 from trocar.waves.series import Series
 from trocar.waves.state import WaveState, require_step
 from trocar.waves.thin_layer import ThinLayers, Wavenumbers, horizontal_shear, vertical_and_along
 
-_FINE = 0.4  # first element in widths of a pad: its waves of 3/width are then resolved to 1e-3
 _SILENT = 1e-13  # modal force relative to the largest: below it is rounding (a central tool's even modes)
 
 
@@ -149,6 +149,11 @@ class WaveSolid:
         """The waves of the static answer."""
         return self._series
 
+    @property
+    def least_window(self) -> float:
+        """Zero: all waves are the layers' own [m]."""
+        return 0.0
+
     @cached_property
     def wave_compliance(self) -> FloatArray:
         """Every face's static W per unit amplitude of pressure [m/Pa], shape (faces, M + 1, N + 1); clamps left out."""
@@ -181,9 +186,7 @@ class WaveSolid:
         Returns:
             Shape (J, faces).
         """
-        layers = vertical_and_along(self.tissue, base_held=self.support.base_held, finest=_FINE * finest)
-        result: FloatArray = surface_compliance(layers, Wavenumbers(k, 0.5 * k**2, 0.5 * k**2))[:, :, 0, 0]
-        return result
+        return layered_compliance(self.tissue, k, base_held=self.support.base_held, finest=finest)
 
     def amplitudes(self, state: WaveState, layer: str | None = None) -> FloatArray:
         """Return the series of a face's displacement (x, y, z) [m], shape (3, M + 1, N + 1)."""
@@ -232,6 +235,24 @@ class WaveSolid:
         wanted = np.zeros((self._moving.kx.size, self._moving.ky.size), dtype=bool)
         wanted[1:, 1:] = True
         return self._oscillators(self._layers_wv, wanted)
+
+    @property
+    def surface_modes(self) -> tuple[int, int]:
+        """Highest m and n that move."""
+        return self._moving.modes
+
+    @cached_property
+    def surface_oscillators(self) -> Oscillators:
+        """Those of `oscillators_wv`, from a modal force [N] across the face to u_z of every layer's upper face [m]."""
+        a, b = self.size
+        waves, pressure = self.oscillators_wv, 4 / (a * b)
+        return Oscillators(
+            matrices=waves.matrices,
+            inputs=waves.inputs[..., :1] * pressure,
+            outputs=np.ascontiguousarray(waves.outputs[:, 0::2]),
+            entry=waves.entry,
+            holds=waves.holds[..., :1] * pressure,
+        )
 
     @cached_property
     def oscillators_s(self) -> Oscillators:

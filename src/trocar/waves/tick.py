@@ -1,59 +1,83 @@
-"""One tick of a live tissue: `WaveMembrane.step` and its read-out under the tools, in one compiled pass.
+"""One tick of a live tissue, laid out for compiled code: which modes move, how they step, where instruments touch.
 
-Each tool has a Gaussian footprint, so its modal force is one product, -F X_m Y_n with
-X_m = exp(-(R kx)^2/8) sin(kx x): the whole load is a sum of as many products as there are tools. Between two
-ticks the modal forces go linearly from the last ones to those at the tools' new places, as in
-`WaveMembrane.step`. A block's exact step
+An instrument touches through a patch of P x P points about its place, each a Gaussian of width s/sqrt(2) (one
+standard deviation) over which its force is spread and the surface is read: of waves k the patch passes
+exp(-(s k)^2/4) each way. What the window leaves out, `near_field` counts. A force is held over a tick, so a block's
+exact step
 
-    x1 = E x0 + W0 f0 + W1 f1    is stepped as    z1 = E z0 + (E W1 + W0) f0,    z = x - W1 f,
+    x1 = E x0 + W f    is stepped as    z1 = E z0 + (E W) f0,    z = x - W f,    W = W0 + W1:
 
-which needs one gain instead of two and does not ask for the next force: z1 and the one-step compliance R W1
-are what an implicit contact law starts from. Layer k's read-out is R_k z1 + (R_k W1) f1.
+z1 is where the block would be without the next force, and W what that force adds at once by the end of the tick, which
+is what an implicit contact law asks for. Layer k's amplitude is R_k z1 + (R_k W) f1.
 
-Memory: a strip is up to 64 modes of one row m, and its coefficients lie in planes of 64, one after the other,
-so that a compiled loop over a strip runs along every plane at once. Only modes with kx^2 + ky^2 <= K^2 are
-kept.
+Memory: a strip is up to 64 modes of one row m, and its coefficients lie in planes of 64, one after the other, so that a
+compiled loop over a strip runs along every plane at once. Only modes with kx^2 + ky^2 <= K^2 are kept.
 """
 
 from __future__ import annotations
 
-from math import pi, sin
-from typing import NamedTuple
+from math import pi
+from typing import NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
 from trocar.errors import InputError
-from trocar.model import FloatArray, Load, Profile
-from trocar.waves.footprint import transform
-from trocar.waves.kernel import TINY, turned
-from trocar.waves.membrane import WaveMembrane
-from trocar.waves.state import WaveState, require_step
+from trocar.model import FloatArray
+from trocar.waves.kernel import TINY
+from trocar.waves.oscillators import Oscillators
+from trocar.waves.state import require_step
 
 IntArray = npt.NDArray[np.int64]
 
 STRIP = 64  # modes: a strip's planes share a page of memory, and few rows need a second strip
-_LANES = 8  # doubles in the widest vector register; strips are padded to a multiple with zeros
-_STEP_PLANES = 6  # of one block: E (4), E W1 + W0 (2)
+LANES = 8  # doubles in the widest vector register; strips are padded to a multiple with zeros
+STEP_PLANES = 6  # of one block: E (4), E W (2)
+_CONTINUED = 8  # rows from which the waves without a sine are continued
+FAR = 1e-6  # of its own: what a point does to another within one tick is left out below
+
+
+class LiveWaves(Protocol):
+    """A wave model whose upper face can be pressed in ticks."""
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Sides a, b [m]."""
+        ...
+
+    @property
+    def surface_modes(self) -> tuple[int, int]:
+        """Highest m and n that move."""
+        ...
+
+    @property
+    def surface_oscillators(self) -> Oscillators:
+        """One group per mode (m, n), n fastest: from a modal force [N] to u_z of every layer's upper face [m]."""
+        ...
 
 
 class Tick(NamedTuple):
     """What a tick needs to know; a named tuple, because compiled code takes one whole. Nothing in it changes.
 
     Attributes:
-        planes: coefficients, shape (strips, planes * 64): for each of r blocks E00, E01, E10, E11, G0, G1;
-            then for each of k layers R0, R1 of every block, and R W1.
+        planes: coefficients, shape (strips, planes * 64): for each of r blocks E00, E01, E10, E11, G0, G1 with
+            G = E W; then for each of k layers R0, R1 of every block, and R W.
         row: m - 1 of each strip, shape (strips,).
         first: n - 1 of its first mode, a multiple of 64, shape (strips,).
         modes: how many modes a strip steps, padding included, shape (strips,).
-        spread_x, spread_y: exp(-(R k)^2/8) of every tool along x and y, shapes (tools, M) and
-            (tools, N padded).
+        offsets: of a patch's points from its centre, along x as along y [m], shape (tools, P).
+        shift_x, shift_y: exp(-(s k)^2/4) times cos(k d) and sin(k d) of its points' offsets d, shapes (2, tools P, M)
+            and (2, tools P, N padded).
         size: sides a, b [m], shape (2,).
-        end_gain: W1 of every mode kept, shape (kept, r, 2).
-        kept: number of each mode kept among the model's (M N), shape (kept,).
+        gain: W of every mode kept, shape (kept, r, 2).
+        at_once: R W of the top layer, shape (M, N padded); 0 beyond the cut-off.
+        kept: number of each mode kept among the model's, shape (kept,).
         strip, lane: where it is stepped, shape (kept,).
-        shape: blocks r, layers k of a mode, modes M, N of the model.
+        inside: how far a patch's points push each other in within a tick, far from the sides [m/N], shape
+            (tools, P P, P P).
+        apart: distance from which on points do not push each other in within a tick [m].
+        shape: blocks r, layers k of a mode, highest modes M, N kept.
+        model: modes the model has.
         dt: length of a tick [s].
     """
 
@@ -61,14 +85,19 @@ class Tick(NamedTuple):
     row: IntArray
     first: IntArray
     modes: IntArray
-    spread_x: FloatArray
-    spread_y: FloatArray
+    offsets: FloatArray
+    shift_x: FloatArray
+    shift_y: FloatArray
     size: FloatArray
-    end_gain: FloatArray
+    gain: FloatArray
+    at_once: FloatArray
     kept: IntArray
     strip: IntArray
     lane: IntArray
+    inside: FloatArray
+    apart: float
     shape: tuple[int, int, int, int]
+    model: tuple[int, int]
     dt: float
 
 
@@ -76,221 +105,208 @@ class TickState(NamedTuple):
     """What a tick changes, in place.
 
     Attributes:
-        blocks: z = x - W1 f, shape (strips, 2 r * 64).
-        force: modal forces f now [N], shape (strips, 64).
-        shapes_x, shapes_y: scratch, sin(kx x) and sin(ky y) of every tool, shapes (tools, M) and
-            (tools, N padded).
-        pressed_y: scratch, the latter times the spread of the footprint.
-        read: scratch, sums over the rows, shape (tools, layers, N padded).
-        strip_read: scratch, one layer's amplitudes in a strip, shape (64,).
+        blocks: z = x - W f, shape (strips, 2 r * 64).
+        force: modal forces f held in the last tick [N], shape (M, N padded).
+        shapes_x, shapes_y: sin(kx x) and sin(ky y) at every patch's points times what the window passes, shapes
+            (tools P, M) and (tools P, N padded).
+        surface: amplitudes of the top layer without the next forces [m], shape (M, N padded).
+        waves: scratch, sin and cos of a patch's centre, shape (2, the longer of M and N padded).
+        rows: scratch, sums over the rows, shape (tools P, N padded).
+        pushes: scratch, forces of one patch as a matrix, shape (P, P).
+        pairs_x, pairs_y, pairs_sum: scratch for pairs of points, shapes (P P, M), (N padded, P P), (P P, N padded).
+        pairs: scratch, shape (P P, P P).
     """
 
     blocks: FloatArray
     force: FloatArray
     shapes_x: FloatArray
     shapes_y: FloatArray
-    read: FloatArray
-    pressed_y: FloatArray
-    strip_read: FloatArray
+    surface: FloatArray
+    waves: FloatArray
+    rows: FloatArray
+    pushes: FloatArray
+    pairs_x: FloatArray
+    pairs_y: FloatArray
+    pairs_sum: FloatArray
+    pairs: FloatArray
 
 
 def make_tick(
-    model: WaveMembrane, dt: float, radii: tuple[float, ...], *, cutoff: float = float("inf")
+    waves: LiveWaves, dt: float, *, window: float, offsets: FloatArray, cutoff: float = float("inf")
 ) -> Tick:
-    """Lay out a model's exact step of length dt [s] for as many tools as radii are given.
+    """Lay out a model's exact step of length dt [s] for as many patches as rows of offsets are given.
 
     Args:
-        model: the tissue; its modes bound those of the tick.
+        waves: the tissue; its modes bound those of the tick.
         dt: length of a tick [s].
-        radii: of the tools' Gaussian footprints [m]; at least one.
-        cutoff: the largest wavenumber kept [1/m]; see `cutoff_for`.
+        window: s [m].
+        offsets: of the patches' points from their centres, along x as along y [m], shape (tools, P).
+        cutoff: the largest wavenumber kept [1/m]; see `measured_cutoff`.
 
     Raises:
         InputError: an argument is not possible, or the cut-off leaves no mode.
     """
     require_step((), (), dt)
-    if not radii or not all(0 < radius < float("inf") for radius in radii):
-        raise InputError("tick: radii", "one finite number above 0 [m] for each tool", radii)
-    rows, columns = model.modes
-    kx = pi / model.size[0] * np.arange(1.0, rows + 1)
-    ky = pi / model.size[1] * np.arange(1.0, columns + 1)
+    if not 0 < window < float("inf"):
+        raise InputError("tick: window", "a finite length above 0 [m]", window)
+    if offsets.ndim != 2 or not offsets.size or not np.isfinite(offsets).all():
+        raise InputError("tick: offsets", "finite numbers [m], a row for each tool", offsets)
+    rows, columns = waves.surface_modes
+    kx = pi / waves.size[0] * np.arange(1.0, rows + 1)
+    ky = pi / waves.size[1] * np.arange(1.0, columns + 1)
     m, n = np.nonzero(kx[:, None] ** 2 + ky[None, :] ** 2 <= cutoff**2)
     if not len(m):
-        raise InputError(
-            "tick: cutoff", f"at least {np.hypot(kx[0], ky[0]):.4g} [1/m], the longest wave", cutoff
-        )
+        longest = float(np.hypot(kx[0], ky[0]))
+        raise InputError("tick: cutoff", f"at least {longest:.4g} [1/m], the longest wave", cutoff)
     parts, strip = np.unique(np.stack([m, n // STRIP]), axis=1, return_inverse=True)
     strip = strip.ravel()
-    longest = np.zeros(parts.shape[1], dtype=np.int64)
-    np.maximum.at(longest, strip, n % STRIP + 1)
+    longest_run = np.zeros(parts.shape[1], dtype=np.int64)
+    np.maximum.at(longest_run, strip, n % STRIP + 1)
     kept = m * columns + n
-    step, outputs = model.oscillators.propagator(dt), model.oscillators.outputs[kept]
+    oscillators = waves.surface_oscillators
+    step, outputs = oscillators.propagator(dt), oscillators.outputs[kept]
     order, layers = outputs.shape[2], outputs.shape[1]
-    transition, end = step.transition[kept], step.end_gain[kept, ..., 0]
-    gain = np.einsum("jrab,jrb->jra", transition, end) + step.start_gain[kept, ..., 0]
-    turn = np.concatenate([transition.reshape(len(kept), order, 4), gain], axis=2)
-    read = np.concatenate(
-        [outputs.reshape(len(kept), layers, 2 * order), np.einsum("jkri,jri->jk", outputs, end)[..., None]],
+    all_hold = (step.start_gain + step.end_gain)[..., 0]
+    transition, hold = step.transition[kept], all_hold[kept]
+    turn = np.concatenate(
+        [
+            transition.reshape(len(kept), order, 4),
+            np.einsum("jrab,jrb->jra", transition, hold),
+        ],
         axis=2,
     )
+    at_once = np.einsum("jkri,jri->jk", outputs, hold)
+    read = np.concatenate([outputs.reshape(len(kept), layers, 2 * order), at_once[..., None]], axis=2)
     table = np.concatenate([turn.reshape(len(kept), -1), read.reshape(len(kept), -1)], axis=1)
     planes = np.zeros((parts.shape[1], table.shape[1], STRIP))
     planes[strip, :, n % STRIP] = np.where(np.abs(table) > TINY, table, 0.0)
-    width = int(_padded(np.array([columns]))[0])
+    high_m, high_n = int(m.max()) + 1, int(n.max()) + 1
+    width = int(_padded(high_n))
+    at_once_table = np.zeros((high_m, width))
+    at_once_table[m, n] = np.where(np.abs(at_once[:, 0]) > TINY, at_once[:, 0], 0.0)
+    spectrum = _spectrum(np.einsum("jri,jri->j", oscillators.outputs[:, 0], all_hold).reshape(rows, columns))
+    spectrum *= np.exp(-0.5 * window**2 * (_with_zero(kx)[:, None] ** 2 + _with_zero(ky) ** 2))
+    spectrum[_with_zero(kx)[:, None] ** 2 + _with_zero(ky) ** 2 > cutoff**2] = 0.0
+    inside = np.stack([_between(spectrum, waves.size, row) for row in offsets])
     return Tick(
         planes=planes.reshape(len(planes), -1),
         row=np.ascontiguousarray(parts[0]),
         first=parts[1] * STRIP,
-        modes=_padded(longest),
-        spread_x=_spread(kx, radii, rows),
-        spread_y=_spread(ky, radii, width),
-        size=np.array(model.size),
-        end_gain=end,
+        modes=np.asarray(_padded(longest_run), dtype=np.int64),
+        offsets=np.ascontiguousarray(offsets, dtype=np.float64),
+        shift_x=_shifts(kx[:high_m], window, offsets, high_m),
+        shift_y=_shifts(ky[:high_n], window, offsets, width),
+        size=np.array(waves.size),
+        gain=np.ascontiguousarray(hold),
+        at_once=at_once_table,
         kept=kept,
         strip=strip,
         lane=n % STRIP,
-        shape=(order, layers, rows, columns),
+        inside=inside,
+        apart=_reach(spectrum, waves.size),
+        shape=(order, layers, high_m, high_n),
+        model=(rows, columns),
         dt=dt,
     )
 
 
-def _padded(counts: IntArray) -> IntArray:
-    result: IntArray = -(-counts // _LANES) * _LANES
+def _shifts(wavenumbers: FloatArray, window: float, offsets: FloatArray, width: int) -> FloatArray:
+    table = np.zeros((2, offsets.size, width))
+    phase = np.outer(offsets.ravel(), wavenumbers)
+    passed = np.exp(-0.25 * (window * wavenumbers) ** 2)
+    table[0, :, : len(wavenumbers)], table[1, :, : len(wavenumbers)] = passed * np.cos(phase), passed * np.sin(phase)
+    return table
+
+
+def _padded(counts: IntArray | int) -> IntArray | int:
+    return -(-counts // LANES) * LANES
+
+
+def _with_zero(wavenumbers: FloatArray) -> FloatArray:
+    return np.append(0.0, wavenumbers)
+
+
+def _spectrum(at_once: FloatArray) -> FloatArray:
+    """Return the cosine spectrum S of what a point does to another within a tick, shape (M + 1, N + 1).
+
+    With products of sines written as sums, and G(x, y) the sum of S cos(kx x) cos(ky y), a point does to another
+
+        G(x - x', y - y') - G(x + x', y - y') - G(x - x', y + y') + G(x + x', y + y'):
+
+    itself and its mirror images in the sides. Waves without a sine, m = 0 or n = 0, cancel in the four, so their share
+    may be chosen: continued from the others it lets G die away with the distance.
+    """
+    table = np.empty((at_once.shape[0] + 1, at_once.shape[1] + 1))
+    table[1:, 1:] = at_once
+    table[0, 1:] = _continued(at_once)
+    table[:, 0] = _continued(table[:, 1:].T)
+    table[0, :] *= 0.5
+    table[:, 0] *= 0.5
+    return 0.25 * table
+
+
+def _continued(rows: FloatArray) -> FloatArray:
+    """Continue a table, even in its row number m = 1, 2, ..., to m = 0: Lagrange's polynomial in m^2."""
+    count = min(len(rows), _CONTINUED)
+    nodes = np.arange(1.0, count + 1) ** 2
+    weights = [np.prod(np.delete(nodes, i) / (np.delete(nodes, i) - nodes[i])) for i in range(count)]
+    result: FloatArray = np.array(weights) @ rows[:count]
     return result
 
 
-def _spread(wavenumbers: FloatArray, radii: tuple[float, ...], width: int) -> FloatArray:
-    table = np.zeros((len(radii), width))
-    for tool, radius in enumerate(radii):
-        spread = transform(Profile.GAUSSIAN, radius * wavenumbers)
-        table[tool, : len(wavenumbers)] = np.where(spread > TINY, spread, 0.0)
-    return table
+def _waves(size: tuple[float, float], spectrum: FloatArray) -> tuple[FloatArray, FloatArray]:
+    return tuple(np.pi / side * np.arange(count) for side, count in zip(size, spectrum.shape, strict=True))
+
+
+def _between(spectrum: FloatArray, size: tuple[float, float], offsets: FloatArray) -> FloatArray:
+    """Return what a patch's points do to each other without the sides' mirror images, shape (P P, P P) [m/N]."""
+    points = len(offsets)
+    gaps, places = np.unique(np.abs(offsets[:, None] - offsets[None, :]).ravel(), return_inverse=True)
+    kx, ky = _waves(size, spectrum)
+    at = np.cos(np.outer(gaps, kx)) @ spectrum @ np.cos(np.outer(ky, gaps))
+    place = places.reshape(points, points)
+    table = at[place[:, None, :, None], place[None, :, None, :]]
+    return np.ascontiguousarray(table.reshape(points * points, points * points))
+
+
+def _reach(spectrum: FloatArray, size: tuple[float, float]) -> float:
+    """Return the distance from which on a point does to another less than `FAR` of what it does to itself [m]."""
+    distances = np.linspace(0.0, min(size), 481)
+    kx, ky = _waves(size, spectrum)
+    worst = np.zeros_like(distances)
+    for angle in np.linspace(0.0, 0.5 * pi, 7):
+        along_x, along_y = np.outer(distances * np.cos(angle), kx), np.outer(distances * np.sin(angle), ky)
+        worst = np.maximum(worst, np.abs(np.einsum("dm,mn,dn->d", np.cos(along_x), spectrum, np.cos(along_y))))
+    loud = int(np.flatnonzero(worst > FAR * worst[0])[-1]) + 1
+    return float(distances[loud]) if loud < len(distances) else 2 * sum(size)
 
 
 def at_rest(tick: Tick) -> TickState:
     """Return the state at rest without load, and the scratch arrays."""
-    order, layers, _, _ = tick.shape
-    tools, rows = tick.spread_x.shape
-    width = tick.spread_y.shape[1]
+    order, _, rows, _ = tick.shape
+    tools, points = tick.offsets.shape
+    width = tick.at_once.shape[1]
     return TickState(
         blocks=np.zeros((len(tick.row), 2 * order * STRIP)),
-        force=np.zeros((len(tick.row), STRIP)),
-        shapes_x=np.zeros((tools, rows)),
-        shapes_y=np.zeros((tools, width)),
-        read=np.zeros((tools, layers, width)),
-        pressed_y=np.zeros((tools, width)),
-        strip_read=np.zeros(STRIP),
+        force=np.zeros((rows, width)),
+        shapes_x=np.zeros((tools * points, rows)),
+        shapes_y=np.zeros((tools * points, width)),
+        surface=np.zeros((rows, width)),
+        waves=np.zeros((2, max(rows, width))),
+        rows=np.zeros((tools * points, width)),
+        pushes=np.zeros((points, points)),
+        pairs_x=np.zeros((points * points, rows)),
+        pairs_y=np.zeros((width, points * points)),
+        pairs_sum=np.zeros((points * points, width)),
+        pairs=np.zeros((points * points, points * points)),
     )
 
 
-def from_wave_state(tick: Tick, model: WaveMembrane, state: WaveState) -> TickState:
-    """Return where a model stands, under the load it stands with; modes beyond the cut-off are dropped."""
-    ticking = at_rest(tick)
-    order = tick.shape[0]
-    (blocks,) = state.oscillators
-    force = model.modal_forces(state.load)[tick.kept]
-    ticking.force[tick.strip, tick.lane] = force
-    planes = ticking.blocks.reshape(len(tick.row), order, 2, STRIP)
-    planes[tick.strip, :, :, tick.lane] = blocks[tick.kept] - tick.end_gain * force[:, None, None]
-    return ticking
-
-
-def to_wave_state(tick: Tick, state: TickState, time: float, load: Load = ()) -> WaveState:
-    """Return the model's state at a time [s], for its whole surface or its energy; load is what acts then."""
-    order, _, rows, columns = tick.shape
-    force = state.force[tick.strip, tick.lane]
+def oscillators_of(tick: Tick, state: TickState) -> FloatArray:
+    """Return the state as the model's oscillators have it, modes beyond the cut-off at rest; shape (M N, r, 2)."""
+    order, (rows, columns) = tick.shape[0], tick.model
+    force = state.force[tick.row[tick.strip], tick.first[tick.strip] + tick.lane]
     planes = state.blocks.reshape(len(tick.row), order, 2, STRIP)
     blocks = np.zeros((rows * columns, order, 2))
-    blocks[tick.kept] = planes[tick.strip, :, :, tick.lane] + tick.end_gain * force[:, None, None]
-    return WaveState(time, (blocks,), load)
-
-
-@njit(cache=True)
-def sines(place: float, side: float, out: FloatArray) -> None:  # pragma: no cover - compiled
-    """Write sin(m pi place/side), m = 1, 2, ..., by differences.
-
-    s_(m+1) - s_m = s_m - s_(m-1) - 4 sin^2(phi/2) s_m keeps its accuracy where phi is small (Reinsch's form
-    of the three-term recurrence: Stoer and Bulirsch 2002, Introduction to Numerical Analysis, section 1.3);
-    the far half is the mirror image of the near one.
-    """
-    mirrored = place > 0.5 * side
-    phi = pi * ((side - place) if mirrored else place) / side
-    turn = -4.0 * sin(0.5 * phi) ** 2
-    value = sin(phi)
-    change = value
-    sign = 1.0
-    for m in range(len(out)):
-        out[m] = sign * value
-        change += turn * value
-        value += change
-        if mirrored:
-            sign = -sign
-
-
-@njit(cache=True)
-def advance_tick(
-    tick: Tick, state: TickState, tools: FloatArray, displacement: FloatArray
-) -> None:  # pragma: no cover - compiled
-    """Advance by one tick: to tools at new places with new forces, from those of the last tick.
-
-    Args:
-        tick: parameters.
-        state: overwritten.
-        tools: x [m], y [m] and force [N], positive pressing in, of every tool at the end of the tick, shape
-            (tools, 3). A tool that touches nothing has force 0; it should lie on the block.
-        displacement: u_z [m] of every layer's upper face at the tools' centres at the end of the tick, shape
-            (tools, layers); written.
-    """
-    order, layers, _, _ = tick.shape
-    count = len(tools)
-    for t in range(count):
-        sines(tools[t, 0], tick.size[0], state.shapes_x[t])
-        sines(tools[t, 1], tick.size[1], state.shapes_y[t])
-        for n in range(state.shapes_y.shape[1]):
-            state.pressed_y[t, n] = tick.spread_y[t, n] * state.shapes_y[t, n]
-    state.read[:] = 0.0
-    u = state.strip_read
-    for s in range(len(tick.row)):
-        m = tick.row[s]
-        n0 = tick.first[s]
-        modes = tick.modes[s]
-        c = tick.planes[s]
-        z = state.blocks[s]
-        f = state.force[s]
-        for i in range(order):
-            e = c[i * _STEP_PLANES * STRIP :]
-            x = z[2 * i * STRIP :]
-            for j in range(modes):
-                p = x[j]
-                q = x[STRIP + j]
-                x[j] = turned(e[j], e[STRIP + j], p, q, e[4 * STRIP + j] * f[j])
-                x[STRIP + j] = turned(e[2 * STRIP + j], e[3 * STRIP + j], p, q, e[5 * STRIP + j] * f[j])
-        for j in range(modes):
-            f[j] = 0.0
-        for t in range(count):
-            push = -tools[t, 2] * tick.spread_x[t, m] * state.shapes_x[t, m]
-            pressed = state.pressed_y[t, n0:]
-            for j in range(modes):
-                f[j] += push * pressed[j]
-        r = c[order * _STEP_PLANES * STRIP :]
-        for k in range(layers):
-            own = r[k * (2 * order + 1) * STRIP :]
-            at_once = own[2 * order * STRIP :]
-            for j in range(modes):
-                u[j] = at_once[j] * f[j]
-            for i in range(order):
-                out = own[2 * i * STRIP :]
-                x = z[2 * i * STRIP :]
-                for j in range(modes):
-                    u[j] += out[j] * x[j] + out[STRIP + j] * x[STRIP + j]
-            for t in range(count):
-                weight = state.shapes_x[t, m]
-                sums = state.read[t, k, n0:]
-                for j in range(modes):
-                    sums[j] += weight * u[j]
-    for t in range(count):
-        for k in range(layers):
-            total = 0.0
-            for n in range(state.read.shape[2]):
-                total += state.shapes_y[t, n] * state.read[t, k, n]
-            displacement[t, k] = total
+    blocks[tick.kept] = planes[tick.strip, :, :, tick.lane] + tick.gain * force[:, None, None]
+    return blocks

@@ -72,6 +72,9 @@ class Hello(Message):
     linear_force_n: float = Field(description="up to this force the tissue's answer is trusted as linear")
     rate_hz: float = Field(description="requested ticks of the servo in a second")
     tasks: tuple[str, ...] = ()
+    steered_by: Literal["page", "trainer"] = Field(
+        default="page", description="whose hands move the instruments: the page's, or a device of the trainer's own"
+    )
 
 
 class Notice(Message):

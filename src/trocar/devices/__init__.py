@@ -1,0 +1,1 @@
+"""What moves the instruments: scripted hands, recordings, the page's hands; haptic hardware takes the same seam."""

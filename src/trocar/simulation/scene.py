@@ -1,0 +1,224 @@
+"""What a live scene is made of: a tissue laid out in ticks, two instruments, and what joins them.
+
+A scene holds parameters only, as arrays and scalars that compiled code and another process can take whole.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from math import pi
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from trocar.contact.instrument import Instrument
+from trocar.contact.tips import TIPS
+from trocar.errors import InputError
+from trocar.model import FloatArray, Press, Profile, Support
+from trocar.tissues.tissue import Tissue
+from trocar.waves.cutoff import measured_cutoff
+from trocar.waves.near_field import SMOOTH, near_field
+from trocar.waves.solid import WaveSolid
+from trocar.waves.tick import LiveWaves, Tick, TickState, make_tick
+from trocar.waves.tick import at_rest as tissue_at_rest
+
+DT = 1e-3  # [s] one tick
+POINTS = 7  # of a patch, along x as along y
+TOLERANCE = 1e-6  # of what a patch feels, that the modes are chosen for
+FRICTION = 0.1  # coefficient of wet steel on wet tissue; chosen, between 0.03 and 0.3 of the literature
+_SPACING = 0.2  # of a patch's points, in a tip's mean semi-axis
+_WIDTH = 0.4  # of a point's Gaussian, in spacings
+_NEAR = 7.0  # reach of the near field, in windows
+_TOUCH = 0.5  # radius over which friction acts, in a tip's mean semi-axis
+_TILT = 0.5  # [rad] of the press that in-plane give is read from; its size cancels
+
+
+class LiveModel(LiveWaves, Protocol):
+    """A wave model that a scene can be made of."""
+
+    @property
+    def support(self) -> Support:
+        """How the block is held."""
+        ...
+
+
+class Scene(NamedTuple):
+    """Parameters of a scene; nothing in it changes.
+
+    Attributes:
+        tick: the tissue's step.
+        ports: of both instruments [m], shape (2, 3).
+        lengths: of their shafts, from handle to tip [m], shape (2,).
+        axes, middles: of their tips' ellipsoids (`contact.tips`) [m], shapes (2, 3).
+        holds: whether a tip has jaws, shape (2,).
+        near: near field between the points of a patch [m/N], shape (2, P P, P P).
+        own: the same and what they push each other in by waves within a tick, far from the sides.
+        give: in-plane displacement of the surface under a tip per newton of friction [m/N], shape (2,).
+        friction: coefficient [1].
+        dt: length of a tick [s].
+        modes: M, N of `amplitudes`.
+        layers: of the tissue.
+    """
+
+    tick: Tick
+    ports: FloatArray
+    lengths: FloatArray
+    axes: FloatArray
+    middles: FloatArray
+    holds: FloatArray
+    near: FloatArray
+    own: FloatArray
+    give: FloatArray
+    friction: float
+    dt: float
+    modes: tuple[int, int]
+    layers: int
+
+
+class SceneState(NamedTuple):
+    """What a scene changes, in place.
+
+    Attributes:
+        tick: the waves.
+        forces: of every point of both patches into the surface [N], shape (2 P P,).
+        touching, holding: which of them press, and which hold the tissue, shape (2 P P,).
+        drag: friction of both tips on the surface, x and y [N], shape (2, 2).
+        lowest: lowest points of both tips [m], shape (2, 3); the next three are also of the last tick.
+        flags: of both instruments: in the hand, free to touch, gripping, jaw, normal force [N]; shape (2, 5).
+        depths: of the tips' undersides below the rest surface at every point [m], shape (2, P P).
+        slopes: of the undersides there, along x and y [1], shape (2, P P, 2).
+        sunk, below, own, factor, order: scratch of the normal contact; `both` and `both_factor` where the patches meet.
+        centre, spread: scratch of the tips, shapes (3,), (3, 3).
+        vectors: scratch, shape (6, 3).
+    """
+
+    tick: TickState
+    forces: FloatArray
+    touching: np.ndarray
+    holding: np.ndarray
+    drag: FloatArray
+    lowest: FloatArray
+    flags: FloatArray
+    depths: FloatArray
+    slopes: FloatArray
+    sunk: FloatArray
+    below: FloatArray
+    own: FloatArray
+    both: FloatArray
+    factor: FloatArray
+    both_factor: FloatArray
+    order: np.ndarray
+    centre: FloatArray
+    spread: FloatArray
+    vectors: FloatArray
+
+
+def make_scene(
+    model: LiveModel,
+    tissue: Tissue,
+    instruments: tuple[Instrument, Instrument],
+    *,
+    dt: float = DT,
+    window: float = SMOOTH,
+    friction: float = FRICTION,
+) -> Scene:
+    """Lay out a scene.
+
+    Args:
+        model: a wave model of the tissue, `WaveMembrane` or `WaveSolid`, its base held and its sides simply supported.
+        tissue: the layers, for the near field and for the give of the surface under friction.
+        instruments: left, right.
+        dt: length of a tick [s].
+        window: of the waves that move [m].
+        friction: coefficient [1].
+
+    Raises:
+        InputError: the sides are clamped, the model's series is too short for the window, or a number is impossible.
+    """
+    if model.support is not Support.BASE:
+        raise InputError("scene: support", Support.BASE.value, model.support.value, "clamped sides cannot move")
+    if not 0 <= friction <= 2:
+        raise InputError("scene: friction", "a coefficient from 0 to 2", friction)
+    axes = np.array([TIPS[each.tip].axes for each in instruments])
+    middles = np.array([TIPS[each.tip].middle for each in instruments])
+    radii = np.array([each.shaft_radius for each in instruments])
+    sizes = radii * np.prod(axes, axis=1) ** (1 / 3)
+    spacings = _SPACING * sizes
+    steps = np.arange(POINTS) - (POINTS - 1) / 2
+    offsets = spacings[:, None] * steps
+    tick = make_tick(model, dt, window=window, offsets=offsets, cutoff=_cutoff(model, window))
+    places = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
+    apart = np.linalg.norm(places[:, None] - places[None], axis=2)
+    solid = WaveSolid(tissue, size=model.size, support=Support.BASE)
+    near = np.empty((2, len(places), len(places)))
+    for side, spacing in enumerate(spacings.tolist()):
+        width = _WIDTH * spacing
+        field = near_field(
+            partial(solid.compliance, finest=width), pad=width, window=window, reach=_NEAR * window
+        )
+        near[side] = field.at(spacing * apart)[..., 0]
+    return Scene(
+        tick=tick,
+        ports=np.array([each.port for each in instruments]),
+        lengths=np.array([each.length for each in instruments]),
+        axes=axes * radii[:, None],
+        middles=middles * radii[:, None],
+        holds=np.array([1.0 if TIPS[each.tip].holds else 0.0 for each in instruments]),
+        near=near,
+        own=tick.inside + near,
+        give=_give(solid, _TOUCH * sizes),
+        friction=friction,
+        dt=dt,
+        modes=tick.shape[2:],
+        layers=tick.shape[1],
+    )
+
+
+def at_rest(scene: Scene) -> SceneState:
+    """Return a scene's state with the tissue at rest and no instrument in it."""
+    tools, each = scene.near.shape[:2]
+    points = tools * each
+    return SceneState(
+        tick=tissue_at_rest(scene.tick),
+        forces=np.zeros(points),
+        touching=np.zeros(points, dtype=np.bool_),
+        holding=np.zeros(points, dtype=np.bool_),
+        drag=np.zeros((tools, 2)),
+        lowest=np.zeros((tools, 3)),
+        flags=np.zeros((tools, 5)),
+        depths=np.zeros((tools, each)),
+        slopes=np.zeros((tools, each, 2)),
+        sunk=np.zeros((tools, each)),
+        below=np.zeros(points),
+        own=np.zeros((tools, each, each)),
+        both=np.zeros((points, points)),
+        factor=np.zeros((each, each)),
+        both_factor=np.zeros((points, points)),
+        order=np.zeros(points, dtype=np.int64),
+        centre=np.zeros(3),
+        spread=np.zeros((3, 3)),
+        vectors=np.zeros((6, 3)),
+    )
+
+
+def _cutoff(model: LiveModel, window: float) -> float:
+    """Return the wavenumber [1/m] beyond which waves add less than `TOLERANCE` to what a patch feels."""
+    rows, columns = model.surface_modes
+    static = np.einsum("jksi,jsin->jk", model.surface_oscillators.outputs, model.surface_oscillators.holds)
+    return measured_cutoff(
+        static.reshape(rows, columns, -1)[..., :1], model.size, 2 * window, Profile.GAUSSIAN, TOLERANCE
+    )
+
+
+def _give(solid: WaveSolid, radii: FloatArray) -> FloatArray:
+    """Return how far the surface goes with a friction of 1 N spread over a disc in the middle of the block [m/N]."""
+    gives = []
+    size = solid.size
+    for radius in radii.tolist():
+        press = Press(x=size[0] / 2, y=size[1] / 2, radius=radius, force=1.0, tilt=_TILT)
+        angles = np.linspace(0, 2 * pi, 12, endpoint=False)
+        ring = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1) * (radius * 2**-0.5)
+        under = np.array([press.x, press.y, 0.0]) + np.vstack([np.zeros(3), ring])
+        moved = solid.displacement(solid.static((press,)), under)[:, 0].mean()
+        gives.append(float(moved / np.sin(_TILT)))
+    return np.array(gives)

@@ -1,0 +1,335 @@
+"""One coupled tick, compiled: handle poses to tips, contact, friction and grip, the tissue's waves, wrenches.
+
+In this order, for both instruments at once:
+
+1. The port's lever puts the tips (`contact.port`); a tip's ellipsoid has a lowest point (`contact.tips`), whose motion
+   over the surface meets friction (`contact.friction`). The patch stands on the rest place of what lies under it: the
+   surface there has moved by give times friction.
+2. The tissue goes on under the forces held so far, and is read at the patches (`waves.patch`).
+3. Points of the tips' undersides press where they would lie below the surface: force held over the tick, no
+   penetration at its end (`contact.normal`), with the near field. Points that hold may pull.
+4. Friction keeps to the new normal force; the forces on the tips come to the hands by the lever.
+
+An instrument that is first seen inside the tissue touches nothing until it has been outside: tissue is never thrown.
+"""
+
+from __future__ import annotations
+
+from math import inf, isfinite, sqrt
+
+from numba import njit
+
+from trocar.contact.friction import drag
+from trocar.contact.normal import press
+from trocar.contact.port import felt, reach
+from trocar.contact.tips import lowest, turn_body, underside
+from trocar.model import FloatArray
+from trocar.simulation.scene import Scene, SceneState
+from trocar.waves.patch import go_on, hold, let_go, place_patch, push_each_other, read_layers, read_patches
+
+# Columns of an instrument's pose, shape (2, POSE): left, right.
+PRESENT, HANDLE, ROLL, JAW, POSE = 0, 1, 4, 5, 6
+# Columns of an instrument's record, shape (2, RECORD); see `advance`.
+TIP, DIRECTION, RECORD_ROLL, RECORD_JAW = 0, 3, 6, 7
+FORCE, HANDLE_FORCE, TOUCH, DEPTH, OUTSIDE = 8, 11, 14, 15, 16
+DRAG, PLACE, MOMENT, TWIST = 17, 19, 21, 24
+RECORD = 25
+TOUCH_PRESENT, TOUCH_TOUCHING, TOUCH_HOLDING = 1, 2, 4
+
+CLOSED, OPEN = 0.2, 0.35  # of a jaw: it takes hold when it falls below the first, and lets go above the second
+GRIP = 4.0  # [N] more than this pulls the tissue out of a jaw
+_IN_HAND, _FREE, _GRIPPING, _JAW, _NORMAL = range(5)
+_ABOVE = 0.02  # [m] a tip higher above the rest surface than this is not looked at
+_AWAY = -1.0  # [m] depth of a point that lies beside the tip or the block
+
+
+@njit(cache=True, nogil=True)
+def advance(
+    scene: Scene, state: SceneState, poses: FloatArray, records: FloatArray
+) -> bool:  # pragma: no cover - compiled
+    """Advance by one tick.
+
+    Args:
+        scene: parameters.
+        state: overwritten.
+        poses: of both handles at the end of the tick: in the hand (0 or 1), x, y, z [m], roll [rad], jaw (0 closed to
+            1 open); shape (2, POSE).
+        records: overwritten; of both instruments: tip [m], direction of the shaft, roll, jaw, force of the tissue on
+            the tip [N], force on the hand [N], touch bits, depth of the tip below the rest surface [m], shaft outside the
+            port [m], friction on the surface x, y [N], rest place under the tip x, y [m], moment on the tip about its
+            end [N m], its part about the shaft [N m]; shape (2, RECORD).
+
+    Returns:
+        Whether all went well; if not, a number was not finite, and no force acts.
+    """
+    tools = len(poses)
+    points = scene.near.shape[1]
+    wanted, pressing = state.vectors[0], state.vectors[1]
+    for t in range(tools):
+        wanted[t] = 1.0 if _put(scene, state, poses, records, t) else 0.0
+    go_on(scene.tick, state.tick)
+    if wanted[0] + wanted[1] != 0.0:
+        read_patches(scene.tick, state.tick, state.sunk)
+    pressed = False
+    for t in range(tools):
+        pressing[t] = 0.0
+        for i in range(points):
+            at = t * points + i
+            below = state.depths[t, i] - state.sunk[t, i] if wanted[t] != 0.0 else _AWAY
+            state.below[at] = below
+            if below > 0.0 or state.holding[at]:
+                pressing[t] = 1.0
+        pressed = pressed or pressing[t] != 0.0
+    well = not pressed or _solve(scene, state, pressing)
+    if not pressed:
+        state.forces[:] = 0.0
+        state.touching[:] = False
+    for t in range(tools):
+        _answer(scene, state, records, t, points)
+    if well:
+        for t in range(tools):
+            for i in range(RECORD):
+                well = well and isfinite(records[t, i])
+    if not well:
+        state.forces[:] = 0.0
+        state.drag[:] = 0.0
+        for t in range(tools):
+            records[t, FORCE : HANDLE_FORCE + 3] = 0.0
+            records[t, DRAG : DRAG + 2] = 0.0
+            records[t, MOMENT : TWIST + 1] = 0.0
+    if pressed and well:
+        hold(scene.tick, state.tick, state.forces.reshape(tools, points))
+    else:
+        let_go(state.tick)
+    return well
+
+
+@njit(cache=True, nogil=True)
+def amplitudes(scene: Scene, state: SceneState, out: FloatArray) -> None:  # pragma: no cover - compiled
+    """Write u_z of every layer's upper face in sin(m pi x/a) sin(n pi y/b), m and n from 1 [m]; (layers, M, N)."""
+    read_layers(scene.tick, state.tick, out)
+
+
+@njit(cache=True, nogil=True)
+def come_to_rest(scene: Scene, state: SceneState) -> None:  # pragma: no cover - compiled
+    """Put the tissue back to rest; instruments that are in it touch nothing until they have been outside."""
+    state.tick.blocks[:] = 0.0
+    state.tick.force[:] = 0.0
+    state.forces[:] = 0.0
+    state.drag[:] = 0.0
+    state.touching[:] = False
+    state.holding[:] = False
+    for t in range(len(state.flags)):
+        state.flags[t, _FREE] = 0.0
+        state.flags[t, _GRIPPING] = 0.0
+        state.flags[t, _NORMAL] = 0.0
+
+
+@njit(cache=True)
+def _put(
+    scene: Scene, state: SceneState, poses: FloatArray, records: FloatArray, t: int
+) -> bool:  # pragma: no cover - compiled
+    """Place an instrument and its patch; return whether it may touch."""
+    flags, record = state.flags[t], records[t]
+    points = scene.tick.offsets.shape[1]
+    handle, tip, direction = state.vectors[2], state.vectors[3], state.vectors[4]
+    for i in range(3):
+        handle[i] = poses[t, HANDLE + i]
+    possible = poses[t, PRESENT] != 0.0 and reach(handle, scene.ports[t], scene.lengths[t], tip, direction)
+    if not possible:
+        for i in range(RECORD):
+            record[i] = 0.0
+        record[DIRECTION + 2] = -1.0
+        _let_go(state, t, points * points)
+        flags[:] = 0.0
+        return False
+    record[RECORD_ROLL], record[RECORD_JAW] = poses[t, ROLL], poses[t, JAW]
+    outside = 0.0
+    for i in range(3):
+        record[TIP + i], record[DIRECTION + i] = tip[i], direction[i]
+        outside += (scene.ports[t, i] - handle[i]) ** 2
+    record[OUTSIDE] = sqrt(outside)
+    turn_body(scene.axes[t], scene.middles[t], tip, direction, poses[t, ROLL], state.centre, state.spread)
+    before_x, before_y = state.lowest[t, 0], state.lowest[t, 1]
+    lowest(state.centre, state.spread, state.lowest[t])
+    low = state.lowest[t]
+    on_block = 0.0 < low[0] < scene.tick.size[0] and 0.0 < low[1] < scene.tick.size[1]
+    record[DEPTH] = max(-low[2], 0.0) if on_block else 0.0
+    if low[2] > 0.0:
+        flags[_FREE] = 1.0
+    elif not on_block or flags[_IN_HAND] == 0.0:
+        flags[_FREE] = 0.0
+    flags[_IN_HAND] = 1.0
+    _grip(scene, state, t, poses[t, JAW], points * points)
+    if flags[_FREE] == 0.0 or not on_block or low[2] > _ABOVE:
+        _let_go(state, t, points * points)
+        return False
+    limit = inf if flags[_GRIPPING] != 0.0 else scene.friction * flags[_NORMAL]
+    drag(state.drag[t], low[0] - before_x, low[1] - before_y, scene.give[t], 1.0, limit)
+    x = low[0] - scene.give[t] * state.drag[t, 0]
+    y = low[1] - scene.give[t] * state.drag[t, 1]
+    record[PLACE], record[PLACE + 1] = x, y
+    place_patch(scene.tick, state.tick, t, x, y)
+    for i in range(points):
+        for k in range(points):
+            at = i * points + k
+            dx, dy = scene.tick.offsets[t, i], scene.tick.offsets[t, k]
+            # From the ellipsoid's middle: its lowest point stands over the patch's centre.
+            height, slope_x, slope_y = underside(
+                state.spread, low[0] - state.centre[0] + dx, low[1] - state.centre[1] + dy
+            )
+            inside = 0.0 < x + dx < scene.tick.size[0] and 0.0 < y + dy < scene.tick.size[1]
+            state.depths[t, at] = -(state.centre[2] + height) if inside and height < inf else _AWAY
+            state.slopes[t, at, 0], state.slopes[t, at, 1] = slope_x, slope_y
+    return True
+
+
+@njit(cache=True)
+def _let_go(state: SceneState, t: int, points: int) -> None:  # pragma: no cover - compiled
+    state.flags[t, _GRIPPING] = 0.0
+    state.flags[t, _NORMAL] = 0.0
+    state.drag[t, 0] = state.drag[t, 1] = 0.0
+    for i in range(t * points, (t + 1) * points):
+        state.holding[i] = False
+        state.touching[i] = False
+        state.forces[i] = 0.0
+
+
+@njit(cache=True)
+def _grip(scene: Scene, state: SceneState, t: int, jaw: float, points: int) -> None:  # pragma: no cover - compiled
+    """Take hold of what the tip touches when its jaw closes; let go when it opens or the tissue is pulled out of it."""
+    flags = state.flags[t]
+    if flags[_GRIPPING] != 0.0:
+        pull = sqrt(flags[_NORMAL] ** 2 + state.drag[t, 0] ** 2 + state.drag[t, 1] ** 2)
+        if jaw > OPEN or pull > GRIP:
+            flags[_GRIPPING] = 0.0
+            for i in range(t * points, (t + 1) * points):
+                state.holding[i] = False
+    elif scene.holds[t] != 0.0 and jaw < CLOSED and flags[_JAW] >= CLOSED:
+        for i in range(t * points, (t + 1) * points):
+            state.holding[i] = state.touching[i]
+            if state.touching[i]:
+                flags[_GRIPPING] = 1.0
+    flags[_JAW] = jaw
+
+
+@njit(cache=True)
+def _solve(scene: Scene, state: SceneState, pressing: FloatArray) -> bool:  # pragma: no cover - compiled
+    """Find the points' forces: both patches together where they push each other in, else one by one."""
+    points = scene.near.shape[1]
+    tools = len(scene.near)
+    joint = tools == 2 and pressing[0] != 0.0 and pressing[1] != 0.0 and _near_each_other(scene, state)
+    well = True
+    for t in range(tools):
+        part = slice(t * points, (t + 1) * points)
+        if pressing[t] == 0.0:
+            state.forces[part] = 0.0
+            state.touching[part] = False
+            continue
+        own = scene.own[t] if _far_from_sides(scene, state, t) else state.own[t]
+        if not _far_from_sides(scene, state, t):
+            push_each_other(scene.tick, state.tick, t, t, own)
+            for i in range(points):
+                for k in range(points):
+                    own[i, k] += scene.near[t, i, k]
+        if joint:
+            for i in range(points):
+                for k in range(points):
+                    state.both[t * points + i, t * points + k] = own[i, k]
+            continue
+        solved = press(
+            own,
+            state.below[part],
+            state.holding[part],
+            state.touching[part],
+            state.forces[part],
+            state.factor,
+            state.order[part],
+        )
+        well = well and solved
+    if not joint:
+        return well
+    across = state.own[0]
+    push_each_other(scene.tick, state.tick, 0, 1, across)
+    for i in range(points):
+        for k in range(points):
+            state.both[i, points + k] = across[i, k]
+            state.both[points + k, i] = across[i, k]
+    return bool(
+        press(
+            state.both,
+            state.below,
+            state.holding,
+            state.touching,
+            state.forces,
+            state.both_factor,
+            state.order,
+        )
+    )
+
+
+@njit(cache=True)
+def _near_each_other(scene: Scene, state: SceneState) -> bool:  # pragma: no cover - compiled
+    """Return whether what one patch does reaches the other within a tick."""
+    widths = scene.tick.offsets[0, -1] + scene.tick.offsets[1, -1]
+    x, y = state.lowest[0, 0] - state.lowest[1, 0], state.lowest[0, 1] - state.lowest[1, 1]
+    return bool(sqrt(x * x + y * y) < scene.tick.apart + 1.5 * widths)
+
+
+@njit(cache=True)
+def _far_from_sides(scene: Scene, state: SceneState, t: int) -> bool:  # pragma: no cover - compiled
+    """Return whether a patch's mirror images in the sides are too far to matter."""
+    margin = 0.5 * scene.tick.apart + scene.tick.offsets[t, -1] + 1e-3
+    low, size = state.lowest[t], scene.tick.size
+    return bool(margin < low[0] < size[0] - margin and margin < low[1] < size[1] - margin)
+
+
+@njit(cache=True)
+def _answer(
+    scene: Scene, state: SceneState, records: FloatArray, t: int, points: int
+) -> None:  # pragma: no cover - compiled
+    """Bring the surface's forces to the tip and to the hand."""
+    flags, record = state.flags[t], records[t]
+    if flags[_IN_HAND] == 0.0:
+        return
+    normal = aside_x = aside_y = 0.0
+    pads = scene.tick.offsets.shape[1]
+    arm_x = arm_y = 0.0  # of the normal force about the lowest point [N m]
+    touched = False
+    for i in range(points):
+        force = state.forces[t * points + i]
+        normal += force
+        aside_x += force * state.slopes[t, i, 0]
+        aside_y += force * state.slopes[t, i, 1]
+        arm_x += force * scene.tick.offsets[t, i // pads]
+        arm_y += force * scene.tick.offsets[t, i % pads]
+        touched = touched or force != 0.0
+    flags[_NORMAL] = normal
+    held = flags[_GRIPPING] != 0.0
+    pull = sqrt(state.drag[t, 0] ** 2 + state.drag[t, 1] ** 2)
+    most = inf if held else scene.friction * max(normal, 0.0)
+    if pull > most:
+        state.drag[t, 0] *= most / pull
+        state.drag[t, 1] *= most / pull
+    force, hand, direction = state.vectors[2], state.vectors[3], state.vectors[4]
+    force[0], force[1], force[2] = -state.drag[t, 0] - aside_x, -state.drag[t, 1] - aside_y, normal
+    # Moment about the tip's end: the resultant acts at the lowest point, the normal force a little beside it.
+    rx = state.lowest[t, 0] - record[TIP]
+    ry = state.lowest[t, 1] - record[TIP + 1]
+    rz = state.lowest[t, 2] - record[TIP + 2]
+    moment = state.vectors[5]
+    moment[0] = ry * force[2] - rz * force[1] + arm_y
+    moment[1] = rz * force[0] - rx * force[2] - arm_x
+    moment[2] = rx * force[1] - ry * force[0]
+    for i in range(3):
+        direction[i] = record[DIRECTION + i]
+        record[FORCE + i] = force[i]
+        record[MOMENT + i] = moment[i]
+    felt(force, direction, record[OUTSIDE], scene.lengths[t], hand)
+    record[HANDLE_FORCE] = hand[0] - (moment[1] * direction[2] - moment[2] * direction[1]) / record[OUTSIDE]
+    record[HANDLE_FORCE + 1] = hand[1] - (moment[2] * direction[0] - moment[0] * direction[2]) / record[OUTSIDE]
+    record[HANDLE_FORCE + 2] = hand[2] - (moment[0] * direction[1] - moment[1] * direction[0]) / record[OUTSIDE]
+    record[TWIST] = moment[0] * direction[0] + moment[1] * direction[1] + moment[2] * direction[2]
+    record[DRAG], record[DRAG + 1] = state.drag[t, 0], state.drag[t, 1]
+    touch = TOUCH_PRESENT + (TOUCH_TOUCHING if touched else 0) + (TOUCH_HOLDING if held else 0)
+    record[TOUCH] = touch
