@@ -33,6 +33,10 @@ class SolverError(TrocarError):
     """A linear system or an eigenproblem could not be solved to the stated accuracy."""
 
 
+class ServoError(TrocarError):
+    """The servo's process could not be started, or is not there."""
+
+
 def _shown(value: object, limit: int = 80) -> str:
     try:
         text = repr(value)
