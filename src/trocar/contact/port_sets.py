@@ -21,7 +21,7 @@ from difflib import get_close_matches
 from math import dist
 from pathlib import Path
 
-from trocar.contact.instrument import NAMES, Instrument, TipKind, Vector
+from trocar.contact.instrument import NAMES, Instrument, TipKind, Vector, default_instruments
 from trocar.errors import InputError
 from trocar.units import MILLIMETRE
 
@@ -48,14 +48,11 @@ class PortSet:
     tips: tuple[TipKind, TipKind]
 
 
-# "usual" is what `default_instruments` gives. Oblique ports lie low: their shafts meet the tissue under 25 degrees.
+USUAL = "usual"
+"""Both sides, towards the user, 100 mm above the tissue: `default_instruments`."""
+
+# Oblique ports lie low: their shafts meet the tissue under 25 degrees.
 PORT_SETS: Mapping[str, PortSet] = {
-    "usual": PortSet(
-        description="both sides, towards the user, 100 mm above the tissue",
-        left=(-0.08, -0.04, 0.1),
-        right=(0.08, -0.04, 0.1),
-        tips=(TipKind.GRASPER, TipKind.PROBE),
-    ),
     "oblique": PortSet(
         description="low on both sides: shafts lie flat over the tissue",
         left=(-0.12, -0.04, 0.06),
@@ -75,12 +72,14 @@ def instruments_through(ports: str, size: tuple[float, float]) -> tuple[Instrume
     """Return the instruments of a set by name, or of a file.
 
     Args:
-        ports: one of `PORT_SETS`, or the path of a TOML file.
+        ports: `USUAL`, one of `PORT_SETS`, or the path of a TOML file.
         size: sides of the block [m].
 
     Raises:
         InputError: there is no such set or file, or something in the file is not possible.
     """
+    if ports == USUAL:
+        return default_instruments(size)
     if ports in PORT_SETS:
         chosen = PORT_SETS[ports]
         left, right = (
@@ -90,9 +89,10 @@ def instruments_through(ports: str, size: tuple[float, float]) -> tuple[Instrume
         return left, right
     if ports.endswith(".toml") or os.sep in ports:
         return read_ports(Path(ports), size)
-    close = get_close_matches(ports, PORT_SETS, n=1)
+    names = (USUAL, *PORT_SETS)
+    close = get_close_matches(ports, names, n=1)
     advice = f"did you mean {close[0]}?" if close else ""
-    raise InputError("ports", f"one of {', '.join(PORT_SETS)}, or a file that ends with .toml", ports, advice)
+    raise InputError("ports", f"one of {', '.join(names)}, or a file that ends with .toml", ports, advice)
 
 
 def read_ports(path: Path, size: tuple[float, float]) -> tuple[Instrument, Instrument]:

@@ -136,7 +136,9 @@ def make_scene(
         InputError: the sides are clamped, the model's series is too short for the window, or a number is impossible.
     """
     if model.support is not Support.BASE:
-        raise InputError("scene: support", Support.BASE.value, model.support.value, "clamped sides cannot move")
+        raise InputError(
+            "scene: support", Support.BASE.value, model.support.value, "clamped sides cannot move"
+        )
     if not 0 <= friction <= 2:
         raise InputError("scene: friction", "a coefficient from 0 to 2", friction)
     axes = np.array([TIPS[each.tip].axes for each in instruments])

@@ -64,7 +64,8 @@ class InPlane:
         """Return u_x and u_y at the nodes under a force along the face [m], shape (2, ny, nx).
 
         Args:
-            x, y: where it acts [m].
+            x: where it acts [m].
+            y: where it acts [m].
             force: along x and y [N].
         """
         cos_x, sin_x = np.cos(self._kx * x), np.sin(self._kx * x)

@@ -214,7 +214,10 @@ def _shifts(wavenumbers: FloatArray, window: float, offsets: FloatArray, width: 
     table = np.zeros((2, offsets.size, width))
     phase = np.outer(offsets.ravel(), wavenumbers)
     passed = np.exp(-0.25 * (window * wavenumbers) ** 2)
-    table[0, :, : len(wavenumbers)], table[1, :, : len(wavenumbers)] = passed * np.cos(phase), passed * np.sin(phase)
+    table[0, :, : len(wavenumbers)], table[1, :, : len(wavenumbers)] = (
+        passed * np.cos(phase),
+        passed * np.sin(phase),
+    )
     return table
 
 
@@ -276,7 +279,9 @@ def _reach(spectrum: FloatArray, size: tuple[float, float]) -> float:
     worst = np.zeros_like(distances)
     for angle in np.linspace(0.0, 0.5 * pi, 7):
         along_x, along_y = np.outer(distances * np.cos(angle), kx), np.outer(distances * np.sin(angle), ky)
-        worst = np.maximum(worst, np.abs(np.einsum("dm,mn,dn->d", np.cos(along_x), spectrum, np.cos(along_y))))
+        worst = np.maximum(
+            worst, np.abs(np.einsum("dm,mn,dn->d", np.cos(along_x), spectrum, np.cos(along_y)))
+        )
     loud = int(np.flatnonzero(worst > FAR * worst[0])[-1]) + 1
     return float(distances[loud]) if loud < len(distances) else 2 * sum(size)
 

@@ -123,6 +123,16 @@ def serve(
         asyncio.run(_run(server, listener, live))
 
 
+def check_address(host: str, cert: Path | None, key: Path | None) -> None:
+    """Refuse a host, certificate and key that `serve` would refuse, before anything slow is begun.
+
+    Raises:
+        InputError: they do not go together, or cannot be used.
+        TrocarError: the address cannot be bound.
+    """
+    _bound(host, 0, secure=_checked_tls(cert, key)).close()
+
+
 class _Stream(WebSocketsSansIOProtocol):
     """uvicorn's WebSocket with two faults less.
 

@@ -1,0 +1,102 @@
+"""trocar train: the live trainer in a browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from trocar.devices.device import Device
+    from trocar.web.serve import Served
+
+_PORT = 0
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command(epilog="Example: trocar train --tissue liver --ports oblique")(train)
+
+
+def train(
+    tissue: Annotated[str, typer.Option(help="A preset; see trocar tissues list.")] = "skin",
+    ports: Annotated[
+        str, typer.Option(help="Where the ports are: usual, oblique, one-sided, or a file.toml.")
+    ] = "usual",
+    model: Annotated[str, typer.Option(help="What moves: wave-membrane or wave-solid.")] = "wave-membrane",
+    device: Annotated[
+        str, typer.Option(help="What moves the instruments: web (the page), simulated, recorded.")
+    ] = "web",
+    script: Annotated[
+        str | None, typer.Option(help="What the simulated hands do.", show_default="press-slide-lift")
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="Of the simulated hands' tremor.", show_default="0")
+    ] = None,
+    recording: Annotated[
+        Path | None, typer.Option(help="What the recorded device plays back.", show_default=False)
+    ] = None,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="To serve on; 0 takes a free one.")] = _PORT,
+    listen: Annotated[
+        str,
+        typer.Option(help="Address to listen on; another than this machine's own needs --cert and --key."),
+    ] = "127.0.0.1",
+    cert: Annotated[
+        Path | None, typer.Option(help="Certificate chain (PEM), for HTTPS.", show_default=False)
+    ] = None,
+    key: Annotated[Path | None, typer.Option(help="Its private key (PEM).", show_default=False)] = None,
+    no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the address only.")] = False,
+) -> None:
+    """Press, slide on and lift live tissue with two instruments, in the browser. Ctrl-C ends it."""
+    from rich.console import Console
+
+    from trocar.web.prepare import prepare
+    from trocar.web.serve import check_address, serve
+
+    hands = _device(device, script=script, seed=seed, recording=recording)
+    check_address(listen, cert, key)
+    log = Console(stderr=True, highlight=False)
+    with log.status("") as status:
+        trainer = prepare(
+            tissue, ports=ports, model=model, device=hands, watch=lambda text: status.update(f"{text} ...")
+        )
+        try:
+            status.update("starting the servo; the first time its code is compiled, a minute or so ...")
+            trainer.open()
+        except BaseException:
+            trainer.close()
+            raise
+
+    def ready(served: Served) -> None:
+        typer.echo(served.address)
+        log.print("The trainer is open. Ctrl-C ends it.")
+        if not no_browser:
+            _open(served.address)
+
+    try:
+        serve(trainer, on_ready=ready, host=listen, port=port, cert=cert, key=key)
+    finally:
+        trainer.close()
+    log.print("The trainer has stopped.")
+
+
+def _device(name: str, **given: Any) -> Device | None:
+    """Make the device named; None is the page's hands."""
+    from trocar.devices.catalogue import device, entry
+
+    options = {option: value for option, value in given.items() if value is not None}
+    entry(name)
+    if name == "web":
+        for option in options:
+            raise typer.BadParameter(f"--{option} is for devices other than web")
+        return None
+    return device(name, **options)
+
+
+def _open(address: str) -> None:
+    """Open a browser, and do not wait for it: `on_ready` has to be quick."""
+    import threading
+    import webbrowser
+
+    threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()

@@ -1,0 +1,314 @@
+"""The live trainer behind the stream: a servo moves the tissue, a device the instruments, and the page is told.
+
+The page's hands, or a device of the trainer's own, become handle poses for the servo; what the servo publishes becomes
+snapshots. A servo that dies is started again with the tissue at rest, a few times; meanwhile forces are zero and the
+page says why.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+
+from trocar.contact.instrument import Instrument, Vector
+from trocar.devices.device import Device, HandlePose
+from trocar.devices.web import WebDevice
+from trocar.errors import TrocarError
+from trocar.model import FloatArray
+from trocar.realtime.servo import Servo, ServoFlag, ServoState
+from trocar.simulation import (
+    DEPTH,
+    DIRECTION,
+    FORCE,
+    RECORD_JAW,
+    RECORD_ROLL,
+    TIP,
+    TOUCH,
+    Scene,
+    SceneState,
+)
+from trocar.simulation.surface import Surface
+from trocar.tissues.tissue import Tissue
+from trocar.web.messages import Camera, Hello, InstrumentShape, LayerSize, Notice, TissueSize
+from trocar.web.source import InstrumentState, Pose, Snapshot, Status, Touch
+
+GRID = (64, 64)
+SMOOTHING = 8e-3  # [s] by which instruments follow poses that come at a display's rate
+_DEVICE_PERIOD = 4e-3  # [s] between poses of a device of the trainer's own
+_RESTARTS = 3  # of a servo that died
+_CAMERA_BACK, _CAMERA_UP = 0.1, 0.11  # [m] from the middle of the block
+_MOST_SEQUENCE = 2**32 - 1
+_QUIET = 5.0  # [s] before the same sentence is said again
+
+_SENTENCES = {
+    ServoFlag.FAULT: (
+        "warning",
+        "A number in the tissue was not finite: forces are off. Reset the tissue (R).",
+    ),
+    ServoFlag.POSE_REFUSED: ("warning", "An impossible pose came and was ignored."),
+}
+
+
+class Trainer:
+    """A tissue, two instruments and what moves them, as the stream wants them.
+
+    Args:
+        tissue: the layers.
+        size: sides of the block [m].
+        scene: the scene made of them.
+        at_rest: its state at rest.
+        instruments: left and right.
+        linear_force: up to this force the tissue's answer is trusted as linear [N].
+        device: what moves the instruments; the page's hands if not given.
+        grid: nodes of the surface along x and y.
+    """
+
+    def __init__(
+        self,
+        *,
+        tissue: Tissue,
+        size: tuple[float, float],
+        scene: Scene,
+        at_rest: SceneState,
+        instruments: tuple[Instrument, Instrument],
+        linear_force: float,
+        device: Device | None = None,
+        grid: tuple[int, int] = GRID,
+    ) -> None:
+        self._device = WebDevice(instruments=instruments) if device is None else device
+        self._linear_force = linear_force
+        self._surface = Surface(scene, tissue, size=size, grid=grid)
+        self._hello = _greeting(
+            tissue, size, scene, instruments, linear_force, grid, by_page=self._device.steered_by_page
+        )
+        self._servo = Servo(scene, at_rest, smoothing=SMOOTHING)
+        self._notices: deque[Notice] = deque(maxlen=16)
+        self._said: dict[str, float] = {}
+        self._seen = ServoFlag(0)
+        self._restarts = 0
+        self._restarting: threading.Thread | None = None
+        self._ended = threading.Event()
+        self._began = time.monotonic()
+        self._driving: threading.Thread | None = None
+        self._shown: tuple[tuple[int, int], Snapshot] | None = None
+
+    def open(self) -> None:
+        """Start the servo and the device; wait until the tissue ticks.
+
+        Raises:
+            TrocarError: one of them could not be started.
+        """
+        self._servo.start()
+        try:
+            self._device.open()
+        except BaseException:
+            self._servo.close()
+            raise
+        if not self._device.steered_by_page:
+            self._driving = threading.Thread(target=self._drive, name="device", daemon=True)
+            self._driving.start()
+
+    def close(self) -> None:
+        """End both; calling it again does nothing."""
+        self._ended.set()
+        for thread in (self._driving, self._restarting):
+            if thread is not None:
+                thread.join(5.0)
+        with suppress(TrocarError):
+            self._device.close()
+        self._servo.close()
+
+    @property
+    def servo(self) -> Servo:
+        """What moves the tissue."""
+        return self._servo
+
+    def hello(self) -> Hello:
+        """Return what never changes while the trainer lives."""
+        return self._hello
+
+    def latest(self) -> Snapshot:
+        """Return the newest state, whole."""
+        state = self._servo.latest()
+        key = (state.tick, state.amplitudes_tick)
+        if self._shown is not None and self._shown[0] == key and state.age < 0.05:
+            return self._shown[1]
+        snapshot = self._snapshot(state)
+        self._shown = (key, snapshot)
+        return snapshot
+
+    def pose(self, instrument: int, pose: Pose, /) -> None:
+        """Take a pose of the page's; where the trainer has a device of its own, it is none of the page's business."""
+        if not self._device.steered_by_page:
+            return
+        held = HandlePose(present=pose.present, handle=pose.handle, roll=pose.roll, jaw=pose.jaw)
+        if isinstance(self._device, WebDevice):
+            self._device.take(instrument, held)
+        self._follow(instrument, held, pose.sequence)
+
+    def reset(self) -> None:
+        """Put the tissue back to rest; a device of the trainer's own begins anew."""
+        self._servo.reset()
+        self._began = time.monotonic()
+
+    def notices(self) -> Sequence[Notice]:
+        """Return what the user should read and has not been given yet."""
+        waiting = []
+        while self._notices:
+            waiting.append(self._notices.popleft())
+        return waiting
+
+    def beat(self) -> None:
+        """Pass the server's life sign on to the servo, and look after the servo."""
+        self._servo.beat()
+        if not self._servo.alive and not self._ended.is_set():
+            self._revive()
+
+    def _snapshot(self, state: ServoState) -> Snapshot:
+        status = Status(0)
+        if state.alive and state.age < 0.1:
+            status |= Status.ALIVE
+        if ServoFlag.DEGRADED in state.flags:
+            status |= Status.DEGRADED
+        if ServoFlag.UNHEARD in state.flags or ServoFlag.FAULT in state.flags or state.age >= 0.05:
+            status |= Status.FORCES_CUT
+        forces = np.linalg.norm(state.records[:, FORCE : FORCE + 3], axis=1)
+        if forces.max() > self._linear_force:
+            status |= Status.BEYOND_LINEAR
+        self._tell_of(state.flags)
+        left, right = (
+            _instrument(record, force) for record, force in zip(state.records, state.hand_forces, strict=True)
+        )
+        return Snapshot(
+            tick=state.tick,
+            time=state.time,
+            pose_sequence=(state.sequences[0] & _MOST_SEQUENCE, state.sequences[1] & _MOST_SEQUENCE),
+            rate=state.rate,
+            missed_ticks=state.missed,
+            tick_p50=state.tick_p50,
+            tick_p99=state.tick_p99,
+            status=status,
+            instruments=(left, right),
+            heights=self._surface.heights(state.amplitudes, state.records),
+            in_plane=self._surface.in_plane(state.records),
+        )
+
+    def _follow(self, instrument: int, pose: HandlePose, sequence: int) -> None:
+        self._servo.command(
+            instrument,
+            present=pose.present,
+            handle=pose.handle,
+            roll=pose.roll,
+            jaw=pose.jaw,
+            sequence=sequence,
+        )
+
+    def _drive(self) -> None:
+        """Hand a device's poses on until the end, and its forces back."""
+        sequence, over = 0, False
+        while not self._ended.wait(_DEVICE_PERIOD):
+            now = time.monotonic() - self._began
+            sequence += 1
+            for instrument, pose in enumerate(self._device.poses(now)):
+                self._follow(instrument, pose, sequence)
+            left, right = self._servo.latest().hand_forces.tolist()
+            self._device.feel((tuple(left), tuple(right)))
+            if self._device.finished(now) and not over:
+                self._say("info", f"The {self._device.name} hands have finished. Reset (R) begins anew.")
+            over = self._device.finished(now)
+
+    def _revive(self) -> None:
+        if self._restarting is not None and self._restarting.is_alive():
+            return
+        reason = self._servo.exit_reason
+        if self._restarts >= _RESTARTS:
+            self._say(
+                "stopped", f"The servo {reason} again. Forces are off: stop the trainer and start it anew."
+            )
+            return
+        self._restarts += 1
+        self._say("warning", f"The servo {reason}. Forces are off; it is being started again.")
+        self._restarting = threading.Thread(target=self._restart, name="restart", daemon=True)
+        self._restarting.start()
+
+    def _restart(self) -> None:
+        try:
+            self._servo.restart()
+        except TrocarError as error:
+            self._say("warning", f"{error}.")
+        else:
+            self._say("info", "The servo runs again; the tissue is at rest.")
+            self._began = time.monotonic()
+
+    def _tell_of(self, flags: ServoFlag) -> None:
+        for flag, (level, text) in _SENTENCES.items():
+            if flag in flags and flag not in self._seen:
+                self._say(level, text)
+        self._seen = flags
+
+    def _say(self, level: Any, text: str) -> None:
+        now = time.monotonic()
+        if now - self._said.get(text, -_QUIET) >= _QUIET:
+            self._said[text] = now
+            self._notices.append(Notice(level=level, text=text))
+
+
+def _greeting(
+    tissue: Tissue,
+    size: tuple[float, float],
+    scene: Scene,
+    instruments: tuple[Instrument, Instrument],
+    linear_force: float,
+    grid: tuple[int, int],
+    *,
+    by_page: bool,
+) -> Hello:
+    middle = (size[0] / 2, size[1] / 2, 0.0)
+    return Hello(
+        tissue=TissueSize(
+            name=tissue.name,
+            size_m=size,
+            layers=tuple(LayerSize(name=layer.name, thickness_m=layer.thickness) for layer in tissue.layers),
+        ),
+        grid=grid,
+        instruments=tuple(_shape(instrument) for instrument in instruments),
+        camera=Camera(port_m=(middle[0], middle[1] - _CAMERA_BACK, _CAMERA_UP), target_m=middle),
+        linear_force_n=linear_force,
+        rate_hz=round(1 / scene.dt, 6),
+        steered_by="page" if by_page else "trainer",
+    )
+
+
+def _shape(instrument: Instrument) -> InstrumentShape:
+    return InstrumentShape(
+        name="left" if instrument.name == "left" else "right",
+        port_m=instrument.port,
+        length_m=instrument.length,
+        shaft_radius_m=instrument.shaft_radius,
+        tip=instrument.tip.value,
+        handle_m=instrument.handle,
+    )
+
+
+def _instrument(record: FloatArray, hand_force: FloatArray) -> InstrumentState:
+    return InstrumentState(
+        tip=_vector(record[TIP : TIP + 3]),
+        direction=_vector(record[DIRECTION : DIRECTION + 3]),
+        roll=float(record[RECORD_ROLL]),
+        jaw=float(record[RECORD_JAW]),
+        force=_vector(record[FORCE : FORCE + 3]),
+        handle_force=_vector(hand_force),
+        touch=Touch(int(record[TOUCH])),
+        depth=float(record[DEPTH]),
+    )
+
+
+def _vector(values: FloatArray) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

@@ -1,0 +1,100 @@
+"""`trocar train` as a user starts and ends it: one address on stdout, and nothing left behind however it ends."""
+
+import os
+import signal
+import subprocess
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import urlopen
+
+import pytest
+
+from trocar.cli import main
+from web.visitor import until
+
+PATIENCE = 240.0  # [s]: the first start compiles, on a machine that does other things
+RECORDING = Path(__file__).parents[2] / "examples" / "press-slide-lift.csv"
+
+
+@contextmanager
+def training(*options):
+    """Start the trainer in a session of its own and yield the process and its address."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "trocar", "train", "--no-browser", *options],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    try:
+        address = process.stdout.readline().strip()
+        assert address.startswith("http"), process.stderr.read()
+        yield process, address
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def children(number):
+    """Return the processes a process has started that still run."""
+    path = Path(f"/proc/{number}/task/{number}/children")
+    return [int(word) for word in path.read_text().split()] if path.exists() else []
+
+
+def runs(number):
+    """Return whether a process runs; a zombie does not."""
+    try:
+        return Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
+def test_however_it_ends_nothing_stays_behind(ending):
+    with training("--device", "recorded", "--recording", str(RECORDING)) as (process, address):
+        parts = urlsplit(address)
+        assert parts.hostname == "127.0.0.1"
+        assert parts.query.startswith("token=")
+        with urlopen(f"http://{parts.netloc}/healthz", timeout=10) as answer:
+            assert answer.status == 200
+        servos = children(process.pid)
+        assert servos
+        if ending is signal.SIGINT:
+            os.killpg(process.pid, ending)  # as a terminal does it: to all of them
+        else:
+            process.send_signal(ending)
+        code = process.wait(PATIENCE)
+        assert code == (-ending if ending is signal.SIGKILL else 0)
+        until(lambda: not any(map(runs, servos)), PATIENCE)
+        out, err = process.communicate()
+        assert out == ""  # the address was all
+        assert "Traceback" not in err
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--tissue", "granite"], "granite"),
+        (["--model", "fea"], "wave-membrane or wave-solid"),
+        (["--ports", "oblik"], "did you mean oblique?"),
+        (["--device", "phantom"], "expected one of simulated, recorded, web"),
+        (["--device", "recorded"], "recording"),
+        (["--device", "recorded", "--recording", "none.csv"], "none.csv"),
+        (["--device", "recorded", "--script", "press", "--recording", str(RECORDING)], "script"),
+        (["--device", "simulated", "--script", "juggle"], "juggle"),
+        (["--script", "press"], "--script is for devices other than web"),
+        (["--listen", "192.0.2.1"], "without cert and key"),
+        (["--listen", "0.0.0.0"], "one address of this machine"),
+        (["--cert", "none.pem"], "both or neither"),
+        (["--port", "70000"], "70000"),
+    ],
+)
+def test_mistakes_are_refused_before_anything_is_started(options, words, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    code = main(["train", "--no-browser", *options])
+    out, err = capsys.readouterr()
+    assert (code, out) == (2, "")
+    assert words in " ".join(err.split())
+    assert "Traceback" not in err
