@@ -32,6 +32,8 @@ OUT = ROOT / "docs" / "_static" / "trainer"
 WINDOW = {"width": 1280, "height": 800}  # [px]
 STARTING = 120.0  # the first start compiles the tick [s]
 STOPPING = 15.0  # [s]
+LEAN = "xrDevice.position.set(0, 1.34, -0.23)"  # towards the block, as one does to see 60 mm of it
+SETTLING = 2000  # of an emulated headset [ms]
 PATIENCE = 120_000  # until a page has drawn what it was given [ms]
 HEADSET = """
 ;window.xrDevice = new IWER.XRDevice(IWER.metaQuest3);
@@ -39,7 +41,7 @@ xrDevice.installRuntime({forceInstall: true});
 xrDevice.stereoEnabled = true;
 xrDevice.position.set(0, 1.6, 0);
 xrDevice.quaternion.set(-0.389, 0, 0, 0.921);
-"""  # the head looks down by 46 degrees, to where the block is put
+"""  # the head looks down by 46 degrees, towards where the block is put
 
 
 class ShotError(Exception):
