@@ -33,7 +33,6 @@ WINDOW = {"width": 1280, "height": 800}  # [px]
 STARTING = 120.0  # the first start compiles the tick [s]
 STOPPING = 15.0  # [s]
 LEAN = "xrDevice.position.set(0, 1.34, -0.23)"  # towards the block, as one does to see 60 mm of it
-SETTLING = 2000  # of an emulated headset [ms]
 PATIENCE = 120_000  # until a page has drawn what it was given [ms]
 HEADSET = """
 ;window.xrDevice = new IWER.XRDevice(IWER.metaQuest3);
@@ -41,6 +40,11 @@ xrDevice.installRuntime({forceInstall: true});
 xrDevice.stereoEnabled = true;
 xrDevice.position.set(0, 1.6, 0);
 xrDevice.quaternion.set(-0.389, 0, 0, 0.921);
+window.xrTurns = 0;
+const ask = XRSession.prototype.requestAnimationFrame;
+XRSession.prototype.requestAnimationFrame = function (turn) {
+  return ask.call(this, (...given) => { turn(...given); window.xrTurns += 1; });
+};
 """  # the head looks down by 46 degrees, towards where the block is put
 
 
@@ -137,6 +141,12 @@ def until(page: Page, told: Callable[[], object], otherwise: str) -> None:
     raise ShotError(otherwise)
 
 
+def wait_for_turns(page: Page) -> None:
+    """Wait until the headset has been drawn for some more turns."""
+    reached = page.evaluate("xrTurns") + 3
+    until(page, lambda: page.evaluate("xrTurns") >= reached, "the headset was not drawn")
+
+
 def photograph(
     context: BrowserContext, origin: str, moments: dict[str, Moment], out: Path, script: str = ""
 ) -> None:
@@ -164,6 +174,9 @@ def photograph(
                 lambda: page.evaluate(said) == "Leave the headset",
                 "the headset's session did not begin",
             )
+            wait_for_turns(page)  # the block is put before the head when that is first tracked
+            page.evaluate(LEAN)
+            wait_for_turns(page)
         for name, moment in moments.items():
             stage.show(moment)
             out.mkdir(parents=True, exist_ok=True)
