@@ -44,6 +44,10 @@ docs: .venv/ready  ## build the documentation into docs/_build/html; a warning i
 pictures: .venv/ready  ## draw the README's pictures again, out of a study, into docs/_static/
 	@.venv/bin/python bench/showcase.py
 
+.PHONY: shots
+shots: .venv/ready  ## take the trainer's pictures with Chromium, into docs/_static/trainer/
+	@.venv/bin/python bench/shots.py
+
 .PHONY: wheel
 wheel: .venv/ready  ## build the wheel into dist/
 	@rm -f dist/*.whl

@@ -6,7 +6,7 @@ number a test can say beforehand. A negative depth lifts the tissue to a tent.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -37,8 +37,8 @@ class Touch:
     holding: bool = False
     flags: int = PRESENT
     depth: float = 0.0
-    force: np.ndarray = None  # type: ignore[assignment]
-    displacement: np.ndarray = None  # type: ignore[assignment]
+    force: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    displacement: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def follow(self, tip: np.ndarray, jaw: float) -> None:
         """Move to where a tip is [m] with its jaw so far open."""
@@ -60,7 +60,7 @@ class Touch:
         self.force = -STIFFNESS * self.displacement
         self.flags = PRESENT | (TOUCHING if self.place is not None else 0) | (HOLDING if self.holding else 0)
 
-    def field(self) -> np.ndarray:
+    def moved(self) -> np.ndarray:
         """Return the displacement x, y, z [m] at every node, shape (3, ny, nx)."""
         if self.place is None:
             return np.zeros((3, NODES, NODES))

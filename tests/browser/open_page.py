@@ -70,7 +70,8 @@ def open_page(
             page.add_init_script(script)
         page.goto(f"http://127.0.0.1:{trainer.port}/")
         opened = Opened(page, trainer, complaints)
-        opened.until(lambda: len(trainer.poses) == 2, "both instruments' poses arrive")
+        if trainer.greeting["steered_by"] == "page":
+            opened.until(lambda: len(trainer.poses) == 2, "both instruments' poses arrive")
         opened.drawn()
         yield opened
         assert complaints == []
@@ -79,3 +80,17 @@ def open_page(
     finally:
         context.close()
         server.shutdown()
+
+
+def disc(picture: np.ndarray, radius: float) -> np.ndarray:
+    """Return which pixels lie within a share of the round picture's radius."""
+    height, width = picture.shape
+    y, x = np.mgrid[0:height, 0:width]
+    return np.hypot(x - width / 2, y - height / 2) < radius * min(height, width) / 2
+
+
+def axe_is_content(page: Page) -> None:
+    """Let axe-core look at the page as it is; it must have been put there."""
+    found = page.evaluate("axe.run()")
+    assert [(each["id"], [node["html"] for node in each["nodes"]]) for each in found["violations"]] == []
+    assert len(found["passes"]) > 10  # it did look

@@ -102,6 +102,9 @@ class SyntheticTrainer:
 
     greeting: dict = field(default_factory=hello)
     wander: tuple[float, float, float] | None = None  # x, y, depth [m] of a dent of its own
+    drag: tuple[float, float, float] | None = (
+        None  # x, y of a place and how far it is drawn aside along x [m]
+    )
     script: Callable[[float], tuple[Hand, Hand]] | None = (
         None  # of the time since the start [s], instead of poses
     )
@@ -151,13 +154,15 @@ class SyntheticTrainer:
         moved = np.zeros((3, NODES, NODES))
         if self.wander is not None:
             moved[2] -= self.wander[2] * bump(*self.wander[:2])
+        if self.drag is not None:
+            moved[0] += self.drag[2] * bump(*self.drag[:2])
         records = []
         for shape, touch, hand in zip(
             self.greeting["instruments"], self._touches, self.hands(now), strict=True
         ):
             tip = np.array(hand.tip)
             touch.follow(tip if hand.present else np.array(shape["port_m"]), hand.jaw)
-            moved += touch.field()
+            moved += touch.moved()
             along = np.subtract(tip, shape["port_m"])
             along /= np.linalg.norm(along)
             flags = touch.flags if hand.present else 0
@@ -237,7 +242,7 @@ class SyntheticTrainer:
                 if self.answering.is_set()
                 else connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "later\n")
             )
-        path = STATIC / (request.path.lstrip("/") or "index.html")
+        path = STATIC / (request.path.partition("?")[0].lstrip("/") or "index.html")
         if STATIC not in path.resolve().parents or not path.is_file():
             return connection.respond(HTTPStatus.NOT_FOUND, "there is no such file\n")
         body = path.read_bytes()

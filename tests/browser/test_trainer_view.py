@@ -6,27 +6,12 @@ import re
 
 import numpy as np
 import pytest
-from playwright.sync_api import sync_playwright
 
-from browser.chromium import required
-from browser.open_page import MODULES, open_page
+from browser.open_page import MODULES, axe_is_content, disc, open_page
 from browser.synthetic_trainer import STATIC, SyntheticTrainer
 
 LEFT, RIGHT = 0, 1
 STEP = 1e-3  # a movement anyone would see [m]
-
-
-@pytest.fixture(scope="module")
-def browser():
-    program = required()
-    if not (STATIC / "index.html").is_file():
-        pytest.fail("the client is not built: pip install --editable .")
-    with sync_playwright() as playwright:
-        launched = playwright.chromium.launch(
-            executable_path=program, args=["--no-sandbox", "--disable-dev-shm-usage"]
-        )
-        yield launched
-        launched.close()
 
 
 def hold(opened, key: str, told, what: str) -> None:
@@ -36,13 +21,6 @@ def hold(opened, key: str, told, what: str) -> None:
     opened.until(told, what)
     opened.page.keyboard.up(key)
     opened.drawn()
-
-
-def disc(picture: np.ndarray, radius: float) -> np.ndarray:
-    """Return which pixels lie within a share of the round picture's radius."""
-    height, width = picture.shape
-    y, x = np.mgrid[0:height, 0:width]
-    return np.hypot(x - width / 2, y - height / 2) < radius * min(height, width) / 2
 
 
 def test_it_connects_and_draws_a_round_picture_with_a_dent(browser):
@@ -169,11 +147,21 @@ def test_trouble_is_said_in_a_sentence_and_a_lost_trainer_found_again(browser):
         status = page.get_by_role("status")
         trainer.status = 1 | 2
         opened.until(lambda: "does not hold" in status.inner_text(), "a degraded servo is said")
+        trainer.status = 1 | 4
+        opened.until(lambda: "beyond the linear range" in status.inner_text(), "a force too large is said")
+        trainer.status = 1 | 8
+        cut = "The trainer lost touch with its servo: forces are off."
+        opened.until(lambda: status.inner_text() == cut, "forces that were cut are said")
         trainer.status = 0
         opened.until(lambda: "servo has stopped" in status.inner_text(), "a dead servo is said")
+        again = "The servo was started again; the tissue is at rest."
+        trainer.notices.append({"type": "notice", "level": "info", "text": again})
+        opened.until(lambda: not trainer.notices, "the notice is sent")
+        opened.drawn()
+        assert "servo has stopped" in status.inner_text()  # as long as that is so
+        trainer.status = 1 | 2  # a new servo has no second behind it yet
+        opened.until(lambda: status.inner_text() == again, "a notice is shown")
         trainer.status = 1
-        trainer.notices.append({"type": "notice", "level": "warning", "text": "The device was unplugged."})
-        opened.until(lambda: status.inner_text() == "The device was unplugged.", "a notice is shown")
         held = trainer.poses[RIGHT].handle
         trainer.hang_up()
         opened.until(lambda: "does not answer" in status.inner_text(), "a lost connection is said")
@@ -213,12 +201,6 @@ def test_axe_finds_nothing_and_nothing_runs_out(browser, size):
         page.get_by_role("button", name="Keys and help").click()
         assert page.get_by_role("dialog", name="Keys and help").is_visible()
         axe_is_content(page)
-
-
-def axe_is_content(page) -> None:
-    found = page.evaluate("axe.run()")
-    assert [(each["id"], [node["html"] for node in each["nodes"]]) for each in found["violations"]] == []
-    assert len(found["passes"]) > 10  # it did look
 
 
 def test_what_is_shipped_holds_no_map_no_test_tool_and_no_inline_script():

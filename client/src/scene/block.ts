@@ -41,7 +41,7 @@ export class Block {
       const cut = new CutFace(size, nx, ny, k, top, top - layer.thickness_m);
       const look = CUT[Math.min(k, CUT.length - 1)] as Look;
       const material = wetMaterial(makeMaps(look, 40 + k, 256), {
-        tint: new Color(1.1, 1.05, 1.0),
+        tint: new Color(1.1, 1.05, 1.0).multiplyScalar(look.lobules > 0 ? 1.4 : 1),
         film: 0.6,
         relief: 0.8,
         side: FrontSide,

@@ -39,6 +39,7 @@ uniform float shaftRadius[ 2 ];
 float leftOfLight( vec3 at, vec3 normal ) {
 	float left = 1.0;
 	for ( int k = 0; k < 2; k ++ ) {
+		if ( shaftRadius[ k ] == 0.0 ) continue;
 		vec3 from = ( viewMatrix * vec4( shaftFrom[ k ], 1.0 ) ).xyz;
 		vec3 along = ( viewMatrix * vec4( shaftTo[ k ], 1.0 ) ).xyz - from;
 		float share = clamp( dot( at - from, along ) / max( dot( along, along ), 1e-9 ), 0.0, 1.0 );

@@ -28,7 +28,7 @@ export class Lamp {
   /** Put the lamp beside an eye. @param reach how far the eye looks; the light keeps the picture as bright [m]. */
   follow(eye: Matrix4, reach: number): void {
     this.light.position.copy(this.at.copy(BESIDE).applyMatrix4(eye));
-    this.light.target.position.copy(this.at.set(0, 0, -0.08).applyMatrix4(eye));
+    this.light.target.position.copy(this.at.set(0, 0, -reach).applyMatrix4(eye));
     this.light.target.updateMatrixWorld();
     this.light.intensity = POWER * (0.45 + 0.55 * (reach / WORKING_DISTANCE) ** 2); // as a camera's automatic gain does
   }

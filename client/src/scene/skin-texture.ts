@@ -77,7 +77,7 @@ export function makeMaps(look: Look, seed: number, size: number): Maps {
       wet[4 * at] = 255 * mix(0.35, 1, smoothstep(-0.3, 0.3, noise.sum(u + 0.71, v + 0.13, 6, 2)));
       const folds = noise.sum(u + 0.5, v + 0.5, 9, 2);
       const grain = noise.sum(u, v, 34, 2);
-      height[at] = 0.34 * folds + 0.05 * grain + 0.06 * vessel + 0.28 * look.lobules * smoothstep(0, 0.9, bulge); // [mm]
+      height[at] = 0.34 * folds + 0.05 * grain + 0.06 * vessel + 0.12 * look.lobules * smoothstep(0, 0.9, bulge); // [mm]
     }
   }
   return {

@@ -29,7 +29,7 @@ const BLEED = `
 	vec3 irradiance = saturate( ( dot( geometryNormal, directLight.direction ) + bleed ) / ( 1.0 + bleed ) ) * directLight.color;
 	float grazing = 1.0 - saturate( dot( filmNormal, geometryViewDir ) );
 	float towards = saturate( dot( normalize( mix( smoothNormal, geometryNormal, 0.4 ) ), normalize( directLight.direction + geometryViewDir ) ) );
-	reflectedLight.directSpecular += film * directLight.color * vec3( 0.150, 0.088, 0.076 ) * pow( towards, 9.0 );
+	reflectedLight.directSpecular += film * directLight.color * vec3( 0.200, 0.118, 0.102 ) * pow( towards, 9.0 );
 	reflectedLight.directSpecular += film * directLight.color * vec3( 0.030, 0.014, 0.012 ) * grazing * grazing * grazing;
 `;
 

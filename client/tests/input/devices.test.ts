@@ -82,6 +82,19 @@ describe("the mouse", () => {
     expect(step()).toBe(1);
     expect(mouse.poses(both, VIEW, 0.05)).toEqual([null, null]);
   });
+
+  it("keeps nothing of what it does while a device of the trainer's own steers", () => {
+    const active = new ActiveHand();
+    const mouse = new Mouse(active);
+    active.steers = false;
+    mouse.move(30, -10, false);
+    mouse.scroll(-100, false);
+    mouse.squeeze(true);
+    active.swap();
+    active.steers = true;
+    expect(active.side).toBe(1);
+    expect(mouse.poses(hands(), VIEW, 0.02)).toEqual([null, null]);
+  });
 });
 
 function pad(axes: number[], pressed: Record<number, number> = {}): Pad {

@@ -76,4 +76,14 @@ describe("the keyboard", () => {
   it("leaves other keys to the page", () => {
     expect(new Keyboard(new ActiveHand()).press("F5", false, false)).toBe(false);
   });
+
+  it("leaves every key to the page while a device of the trainer's own steers", () => {
+    const active = new ActiveHand();
+    const keyboard = new Keyboard(active);
+    active.steers = false;
+    for (const code of ["Tab", "Space", "ArrowLeft", "KeyQ"]) expect(keyboard.press(code, false, false)).toBe(false);
+    expect(active.side).toBe(RIGHT);
+    active.steers = true;
+    expect(keyboard.poses(hands(), VIEW, 0.1)).toEqual([null, null]); // nothing was kept for later
+  });
 });

@@ -117,6 +117,7 @@ describe("a text message", () => {
     ["a notice of no level", '{"type": "notice", "text": "x"}'],
     ["a greeting without a camera", JSON.stringify({ ...hello(), camera: undefined })],
     ["a greeting with one instrument", JSON.stringify({ ...hello(), instruments: hello().instruments.slice(1) })],
+    ["a greeting that nobody steers", JSON.stringify({ ...hello(), steered_by: "nobody" })],
     ["a greeting without layers", JSON.stringify({ ...hello(), tissue: { ...hello().tissue, layers: [] } })],
   ])("is refused: %s", (_, text) => {
     expect(() => readServerMessage(text)).toThrow(WireError);
