@@ -6,6 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from trocar.cli import application
+from trocar.errors import InputError
 from trocar.study.cost import equal_error, tick_cost
 
 ARGUMENTS = ["bench", "step", "--tissue", "uterus", "--diameter-mm", "16", "--tolerance", "0.01"]
@@ -52,6 +53,21 @@ def test_cost_names_both_models():
     assert len(content["static"][0]["tried"]) == 2
 
 
-@pytest.mark.parametrize("command", ["step", "cost"])
+def test_servo_counts_an_empty_loop_alone():
+    arguments = ("bench", "servo", "--empty", "--seconds", "1", "--rounds", "1", "--tissue", "uterus")
+    content = json.loads(run(*arguments, "--json"))
+    assert [one["loop"] for one in content["rounds"]] == ["empty", "empty"]
+    assert content["servo"] is None
+    text = run(*arguments)
+    assert "late, 99.9 %, us" in text
+    assert "Real-time class" in text or "real-time class" in text
+
+
+def test_servo_refuses_no_rounds():
+    with pytest.raises(InputError, match="rounds: expected"):
+        CliRunner().invoke(application(), ["bench", "servo", "--rounds", "0"], catch_exceptions=False)
+
+
+@pytest.mark.parametrize("command", ["step", "cost", "servo"])
 def test_help_has_an_example(command):
     assert f"Example: trocar bench {command}" in run("bench", command, "--help")

@@ -17,6 +17,7 @@ from trocar.realtime.shared import (
 )
 
 SHAPE = (2, 8, 8)
+LIVE = (3, 41, 41)
 
 
 @njit(nogil=True)
@@ -70,8 +71,10 @@ def test_poses_lie_in_the_command():
 
 
 def test_a_reader_never_sees_half_a_round():
-    rounds = 20_000
-    area = view(allocate(SHAPE), SHAPE).field
+    rounds = (
+        40_000  # of some microseconds: both sides run at once for many of them, where there are two cores
+    )
+    area = view(allocate(LIVE), LIVE).field
     own, seen = copy_of(area), copy_of(area)
     write_many(own, area, 1)  # compiled before both run
     torn_reads(area, seen, 0)

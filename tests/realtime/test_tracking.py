@@ -71,6 +71,15 @@ def test_a_handle_is_never_faster_than_allowed(smoothing):
     assert path[-1, HANDLE : HANDLE + 3] == pytest.approx([0.3, -0.2, 0.4], abs=1e-6)
 
 
+def test_a_hurried_handle_turns_back_as_soon_as_the_hand_does():
+    state = held(pose())
+    aim(state, 0, pose(x=1.0))
+    here = ticks(state, 200)[-1, HANDLE]
+    aim(state, 0, pose(x=here))
+    # At 1 m/s a critically damped oscillator goes v/(w e) = 1.5 mm past; at the speed it was not allowed, 15 mm.
+    assert ticks(state, 200)[:, HANDLE].max() - here < 2.5e-3
+
+
 def test_haste_is_reported():
     state = held(pose())
     aim(state, 0, pose(x=0.5))

@@ -1,4 +1,4 @@
-"""`trocar bench`: what a step costs on this machine, and what finite elements cost at equal error."""
+"""`trocar bench`: what a step costs on this machine, how the servo keeps time, and what finite elements cost."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from trocar.cli.bench_servo import servo
 from trocar.errors import InputError
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ def register(app: typer.Typer) -> None:
     group = typer.Typer(no_args_is_help=True, help="Measure what steps cost on this machine.")
     group.command("step", epilog="Example: trocar bench step --diameter-mm 8")(step)
     group.command("cost", epilog="Example: trocar bench cost --quick")(cost)
+    group.command("servo", epilog="Example: trocar bench servo --seconds 60 --rounds 5")(servo)
     app.add_typer(group, name="bench", epilog="Example: trocar bench step")
 
 

@@ -148,7 +148,6 @@ def make_work(shared: Shared, field_shape: FieldShape) -> Work:
     )
 
 
-@njit(cache=True, nogil=True)
 def serve(
     advance: Any,
     amplitudes: Any,
@@ -161,7 +160,7 @@ def serve(
     following: Following,
     limits: GuardLimits,
 ) -> int:  # pragma: no cover - compiled
-    """Run until told to stop, or until nobody is there to tell.
+    """Run until told to stop, or until nobody is there to tell; to be compiled (`physics.with_own_cache`).
 
     Args:
         advance: pointer to the physics' step (`physics`).

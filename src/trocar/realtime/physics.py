@@ -2,7 +2,8 @@
 
 A compiled function that calls another by name carries a copy of it in its cache file, and would go on using that copy
 after the other has changed. By pointer, the loop is compiled once for each kind of scene and found again in the cache
-whatever becomes of the physics, and a test can give it physics of its own.
+whatever becomes of the physics, and a test can give it physics of its own. Each physics has a cache file of its own:
+numba cannot read a file that names types it cannot import.
 """
 
 from __future__ import annotations
@@ -10,9 +11,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
+from types import FunctionType
 from typing import Any
 
-from numba import types
+from numba import njit, types
 
 from trocar import simulation
 
@@ -54,8 +56,7 @@ class Pointer(types.WrapperAddressProtocol):
     """
 
     def __init__(self, function: Any, arguments: tuple[Any, ...]) -> None:
-        function.compile(arguments)
-        self._result = function.overloads[arguments]
+        self._result = compiled(function, arguments)
 
     def __wrapper_address__(self) -> int:
         name = self._result.fndesc.llvm_cfunc_wrapper_name
@@ -64,6 +65,38 @@ class Pointer(types.WrapperAddressProtocol):
     def signature(self) -> Any:
         """Return numba's signature."""
         return self._result.signature
+
+
+def compiled(function: Any, arguments: tuple[Any, ...]) -> Any:
+    """Compile a function, or find it in its cache; a cache that cannot be read any more is written anew.
+
+    Args:
+        function: decorated by numba.
+        arguments: numba's types.
+
+    Returns:
+        Numba's result.
+    """
+    try:
+        function.compile(arguments)
+    except (ImportError, AttributeError):  # it names a type that has moved since
+        function._cache.flush()
+        function.compile(arguments)
+    return function.overloads[arguments]
+
+
+def with_own_cache(function: Any, physics: Physics) -> Any:
+    """Return a compiled function whose cache file is this physics' own.
+
+    Args:
+        function: not decorated yet.
+        physics: by whose `advance` the file is named.
+    """
+    owner = f"{physics.advance.py_func.__module__}_{physics.advance.py_func.__name__}".replace(".", "_")
+    own = FunctionType(function.__code__, function.__globals__, function.__name__)
+    own.__qualname__ = f"{function.__name__}_{owner}"
+    own.__module__ = function.__module__
+    return njit(cache=True, nogil=True)(own)
 
 
 def _found(*names: str) -> Physics:

@@ -11,7 +11,7 @@ from numba import typeof as untyped_typeof
 
 from trocar.realtime.guard import GuardLimits
 from trocar.realtime.loop import Settings, make_work, serve
-from trocar.realtime.physics import Physics, Pointer
+from trocar.realtime.physics import Physics, Pointer, compiled, with_own_cache
 from trocar.realtime.privileges import claim, die_with_parent, ignore_interrupts
 from trocar.realtime.shared import FieldShape, Shared, view
 from trocar.realtime.tracking import Following
@@ -84,6 +84,7 @@ def _ready(orders: Orders, shared: Shared) -> Any:
     )
     settings = Settings(period=orders.period, parent=orders.parent, allowed=0)
     arguments = (*functions, scene, state, shared, work, settings, orders.following, orders.limits)
-    serve.compile(tuple(typeof(argument) for argument in arguments))
+    loop = with_own_cache(serve, orders.physics)
+    compiled(loop, tuple(typeof(argument) for argument in arguments))
     settings = settings._replace(allowed=claim(scheduled=orders.scheduled))
-    return lambda: serve(*arguments[:7], settings, *arguments[8:])
+    return lambda: loop(*arguments[:7], settings, *arguments[8:])

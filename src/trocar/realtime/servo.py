@@ -31,7 +31,7 @@ from trocar.realtime.process import EXIT_COULD_NOT_START, EXIT_OF_LOOP, Orders, 
 from trocar.realtime.tracking import Following
 from trocar.simulation import DRAG, FORCE, HANDLE, HANDLE_FORCE, JAW, PRESENT, ROLL
 
-START_WITHIN = 120.0  # [s] for compiling everything on a slow machine, the first time
+START_WITHIN = 300.0  # [s] for compiling everything on a slow and busy machine, the first time
 _STOP_WITHIN = 0.5  # [s] for the loop to see the flag, then for SIGTERM to work
 _WAIT = 5e-3  # [s] between looks
 
