@@ -102,7 +102,9 @@ class SyntheticTrainer:
 
     greeting: dict = field(default_factory=hello)
     wander: tuple[float, float, float] | None = None  # x, y, depth [m] of a dent of its own
-    script: Callable[[float], tuple[Hand, Hand]] | None = None  # of the time since the start [s], instead of poses
+    script: Callable[[float], tuple[Hand, Hand]] | None = (
+        None  # of the time since the start [s], instead of poses
+    )
     status: int = 1
     poses: dict[int, Pose] = field(default_factory=dict)
     acknowledged: list[int] = field(default_factory=list)
@@ -253,4 +255,3 @@ class SyntheticTrainer:
         self.port = server.socket.getsockname()[1]
         threading.Thread(target=server.serve_forever, daemon=True).start()
         return server
-

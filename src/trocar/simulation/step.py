@@ -36,7 +36,10 @@ DRAG, PLACE, MOMENT, TWIST = 17, 19, 21, 24
 RECORD = 25
 TOUCH_PRESENT, TOUCH_TOUCHING, TOUCH_HOLDING = 1, 2, 4
 
-CLOSED, OPEN = 0.2, 0.35  # of a jaw: it takes hold when it falls below the first, and lets go above the second
+CLOSED, OPEN = (
+    0.2,
+    0.35,
+)  # of a jaw: it takes hold when it falls below the first, and lets go above the second
 GRIP = 4.0  # [N] more than this pulls the tissue out of a jaw
 _IN_HAND, _FREE, _GRIPPING, _JAW, _NORMAL = range(5)
 _ABOVE = 0.02  # [m] a tip higher above the rest surface than this is not looked at
@@ -55,9 +58,9 @@ def advance(
         poses: of both handles at the end of the tick: in the hand (0 or 1), x, y, z [m], roll [rad], jaw (0 closed to
             1 open); shape (2, POSE).
         records: overwritten; of both instruments: tip [m], direction of the shaft, roll, jaw, force of the tissue on
-            the tip [N], force on the hand [N], touch bits, depth of the tip below the rest surface [m], shaft outside the
-            port [m], friction on the surface x, y [N], rest place under the tip x, y [m], moment on the tip about its
-            end [N m], its part about the shaft [N m]; shape (2, RECORD).
+            the tip [N], force on the hand [N], touch bits, depth of the tip below the rest surface [m], shaft outside
+            the port [m], friction on the surface x, y [N], rest place under the tip x, y [m], moment on the tip about
+            its end [N m], its part about the shaft [N m]; shape (2, RECORD).
 
     Returns:
         Whether all went well; if not, a number was not finite, and no force acts.
@@ -196,7 +199,9 @@ def _let_go(state: SceneState, t: int, points: int) -> None:  # pragma: no cover
 
 
 @njit(cache=True)
-def _grip(scene: Scene, state: SceneState, t: int, jaw: float, points: int) -> None:  # pragma: no cover - compiled
+def _grip(
+    scene: Scene, state: SceneState, t: int, jaw: float, points: int
+) -> None:  # pragma: no cover - compiled
     """Take hold of what the tip touches when its jaw closes; let go when it opens or the tissue is pulled out of it."""
     flags = state.flags[t]
     if flags[_GRIPPING] != 0.0:
@@ -327,8 +332,12 @@ def _answer(
         record[MOMENT + i] = moment[i]
     felt(force, direction, record[OUTSIDE], scene.lengths[t], hand)
     record[HANDLE_FORCE] = hand[0] - (moment[1] * direction[2] - moment[2] * direction[1]) / record[OUTSIDE]
-    record[HANDLE_FORCE + 1] = hand[1] - (moment[2] * direction[0] - moment[0] * direction[2]) / record[OUTSIDE]
-    record[HANDLE_FORCE + 2] = hand[2] - (moment[0] * direction[1] - moment[1] * direction[0]) / record[OUTSIDE]
+    record[HANDLE_FORCE + 1] = (
+        hand[1] - (moment[2] * direction[0] - moment[0] * direction[2]) / record[OUTSIDE]
+    )
+    record[HANDLE_FORCE + 2] = (
+        hand[2] - (moment[0] * direction[1] - moment[1] * direction[0]) / record[OUTSIDE]
+    )
     record[TWIST] = moment[0] * direction[0] + moment[1] * direction[1] + moment[2] * direction[2]
     record[DRAG], record[DRAG + 1] = state.drag[t, 0], state.drag[t, 1]
     touch = TOUCH_PRESENT + (TOUCH_TOUCHING if touched else 0) + (TOUCH_HOLDING if held else 0)

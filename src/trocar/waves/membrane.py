@@ -20,10 +20,10 @@ from trocar.model import FloatArray, Load, Press, Support
 from trocar.tissues.tissue import Tissue
 from trocar.waves.fit import RADII, fitted_stack
 from trocar.waves.footprint import modal_forces
+from trocar.waves.near_field import SMOOTH, layered_compliance
 from trocar.waves.oscillators import Oscillators
 from trocar.waves.series import Field, Series
 from trocar.waves.stack import Stack, derived_stack
-from trocar.waves.near_field import SMOOTH, layered_compliance
 from trocar.waves.state import WaveState, require_step
 
 
@@ -93,9 +93,7 @@ class WaveMembrane:
     ) -> WaveMembrane:
         """Build one with coefficients fitted to `WaveSolid`'s response (see `fit`) under tools of these radii [m]."""
         fit = fitted_stack(tissue, size=size, support=Support(support), radii=radii)
-        return cls(
-            fit.stack, size=size, modes=modes, support=support, fit_error=fit.error, tissue=tissue
-        )
+        return cls(fit.stack, size=size, modes=modes, support=support, fit_error=fit.error, tissue=tissue)
 
     @property
     def modes(self) -> tuple[int, int]:

@@ -40,7 +40,9 @@ def sines_and_cosines(place: float, side: float, out: FloatArray) -> None:  # pr
 
 
 @njit(cache=True)
-def place_patch(tick: Tick, state: TickState, tool: int, x: float, y: float) -> None:  # pragma: no cover - compiled
+def place_patch(
+    tick: Tick, state: TickState, tool: int, x: float, y: float
+) -> None:  # pragma: no cover - compiled
     """Put a patch's centre at a rest place x, y [m]; points off the block must carry no force."""
     points = tick.offsets.shape[1]
     sines_and_cosines(x, tick.size[0], state.waves)
@@ -111,7 +113,8 @@ def push_each_other(
     Args:
         tick: parameters.
         state: scratch in it is overwritten.
-        one, other: numbers of the patches; they may be the same.
+        one: number of a patch.
+        other: of the one that presses; it may be the same.
         out: overwritten, shape (P P, P P).
     """
     points = tick.offsets.shape[1]

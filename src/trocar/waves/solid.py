@@ -19,8 +19,8 @@ from trocar.tissues.tissue import Tissue
 from trocar.waves.banded import surface_compliance
 from trocar.waves.clamped import SIDE_MODES, ClampedSides
 from trocar.waves.footprint import modal_forces
-from trocar.waves.oscillators import Oscillators
 from trocar.waves.near_field import layered_compliance
+from trocar.waves.oscillators import Oscillators
 from trocar.waves.ritz import ritz_oscillators
 from trocar.waves.series import Series
 from trocar.waves.state import WaveState, require_step

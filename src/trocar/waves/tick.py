@@ -214,7 +214,10 @@ def _shifts(wavenumbers: FloatArray, window: float, offsets: FloatArray, width: 
     table = np.zeros((2, offsets.size, width))
     phase = np.outer(offsets.ravel(), wavenumbers)
     passed = np.exp(-0.25 * (window * wavenumbers) ** 2)
-    table[0, :, : len(wavenumbers)], table[1, :, : len(wavenumbers)] = passed * np.cos(phase), passed * np.sin(phase)
+    table[0, :, : len(wavenumbers)], table[1, :, : len(wavenumbers)] = (
+        passed * np.cos(phase),
+        passed * np.sin(phase),
+    )
     return table
 
 
@@ -255,7 +258,8 @@ def _continued(rows: FloatArray) -> FloatArray:
 
 
 def _waves(size: tuple[float, float], spectrum: FloatArray) -> tuple[FloatArray, FloatArray]:
-    return tuple(np.pi / side * np.arange(count) for side, count in zip(size, spectrum.shape, strict=True))
+    rows, columns = spectrum.shape
+    return pi / size[0] * np.arange(float(rows)), pi / size[1] * np.arange(float(columns))
 
 
 def _between(spectrum: FloatArray, size: tuple[float, float], offsets: FloatArray) -> FloatArray:
@@ -276,7 +280,9 @@ def _reach(spectrum: FloatArray, size: tuple[float, float]) -> float:
     worst = np.zeros_like(distances)
     for angle in np.linspace(0.0, 0.5 * pi, 7):
         along_x, along_y = np.outer(distances * np.cos(angle), kx), np.outer(distances * np.sin(angle), ky)
-        worst = np.maximum(worst, np.abs(np.einsum("dm,mn,dn->d", np.cos(along_x), spectrum, np.cos(along_y))))
+        worst = np.maximum(
+            worst, np.abs(np.einsum("dm,mn,dn->d", np.cos(along_x), spectrum, np.cos(along_y)))
+        )
     loud = int(np.flatnonzero(worst > FAR * worst[0])[-1]) + 1
     return float(distances[loud]) if loud < len(distances) else 2 * sum(size)
 

@@ -73,7 +73,8 @@ class Hello(Message):
     rate_hz: float = Field(description="requested ticks of the servo in a second")
     tasks: tuple[str, ...] = ()
     steered_by: Literal["page", "trainer"] = Field(
-        default="page", description="whose hands move the instruments: the page's, or a device of the trainer's own"
+        default="page",
+        description="whose hands move the instruments: the page's, or a device of the trainer's own",
     )
 
 
