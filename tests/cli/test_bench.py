@@ -9,7 +9,7 @@ from trocar.cli import application
 from trocar.errors import InputError
 from trocar.study.cost import equal_error, tick_cost
 
-ARGUMENTS = ["bench", "step", "--tissue", "uterus", "--diameter-mm", "16", "--tolerance", "0.01"]
+ARGUMENTS = ["bench", "step", "--tissue", "uterus", "--diameter-mm", "8", "--tolerance", "0.01"]
 
 
 @pytest.fixture(autouse=True)
@@ -33,12 +33,12 @@ def run(*arguments):
 def test_step_prints_a_tick_and_its_floor():
     text = run(*ARGUMENTS)
     assert "memory floor" in text
-    assert "16 mm" in text
+    assert "8 mm" in text
 
 
 def test_step_as_json():
     content = json.loads(run(*ARGUMENTS, "--json"))
-    assert content["ticks"][0]["diameter_mm"] == 16
+    assert content["ticks"][0]["diameter_mm"] == 8
     assert content["compile_s"] > 0
 
 

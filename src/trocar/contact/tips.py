@@ -63,7 +63,7 @@ def turn_body(
         middle: from the tip, in the tool's axes [m], shape (3,).
         tip: position [m], shape (3,).
         direction: unit vector along the shaft towards the tip, shape (3,).
-        roll: about the shaft, from where y points as far up as the shaft allows [rad].
+        roll: right-handed about `direction`, from where y points as far up as the shaft allows [rad].
         centre: overwritten with the ellipsoid's middle [m], shape (3,).
         spread: overwritten with S [m^2], shape (3, 3).
     """

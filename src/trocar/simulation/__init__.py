@@ -1,6 +1,6 @@
 """One pure coupled step: handle poses, contact, tissue, wrenches; what is validated is what is felt."""
 
-from trocar.simulation.scene import Scene, SceneState, at_rest, make_scene
+from trocar.simulation.scene import DT, Scene, SceneState, at_rest, make_scene
 from trocar.simulation.step import (
     DEPTH,
     DIRECTION,
@@ -28,11 +28,13 @@ from trocar.simulation.step import (
     amplitudes,
     come_to_rest,
 )
+from trocar.simulation.trajectory import line, play, played, poses_along
 
 __all__ = [
     "DEPTH",
     "DIRECTION",
     "DRAG",
+    "DT",
     "FORCE",
     "HANDLE",
     "HANDLE_FORCE",
@@ -58,5 +60,9 @@ __all__ = [
     "amplitudes",
     "at_rest",
     "come_to_rest",
+    "line",
     "make_scene",
+    "play",
+    "played",
+    "poses_along",
 ]

@@ -121,6 +121,7 @@ def make_scene(
     dt: float = DT,
     window: float = SMOOTH,
     friction: float = FRICTION,
+    tolerance: float = TOLERANCE,
 ) -> Scene:
     """Lay out a scene.
 
@@ -131,6 +132,7 @@ def make_scene(
         dt: length of a tick [s].
         window: of the waves that move [m].
         friction: coefficient [1].
+        tolerance: of what a patch feels, that the modes are chosen for [1].
 
     Raises:
         InputError: the sides are clamped, the model's series is too short for the window, or a number is impossible.
@@ -148,7 +150,7 @@ def make_scene(
     spacings = _SPACING * sizes
     steps = np.arange(POINTS) - (POINTS - 1) / 2
     offsets = spacings[:, None] * steps
-    tick = make_tick(model, dt, window=window, offsets=offsets, cutoff=_cutoff(model, window))
+    tick = make_tick(model, dt, window=window, offsets=offsets, cutoff=_cutoff(model, window, tolerance))
     places = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
     apart = np.linalg.norm(places[:, None] - places[None], axis=2)
     solid = WaveSolid(tissue, size=model.size, support=Support.BASE)
@@ -203,12 +205,12 @@ def at_rest(scene: Scene) -> SceneState:
     )
 
 
-def _cutoff(model: LiveModel, window: float) -> float:
-    """Return the wavenumber [1/m] beyond which waves add less than `TOLERANCE` to what a patch feels."""
+def _cutoff(model: LiveModel, window: float, tolerance: float) -> float:
+    """Return the wavenumber [1/m] beyond which waves add less than a share to what a patch feels."""
     rows, columns = model.surface_modes
     static = np.einsum("jksi,jsin->jk", model.surface_oscillators.outputs, model.surface_oscillators.holds)
     return measured_cutoff(
-        static.reshape(rows, columns, -1)[..., :1], model.size, 2 * window, Profile.GAUSSIAN, TOLERANCE
+        static.reshape(rows, columns, -1)[..., :1], model.size, 2 * window, Profile.GAUSSIAN, tolerance
     )
 
 

@@ -58,9 +58,9 @@ def advance(
         poses: of both handles at the end of the tick: in the hand (0 or 1), x, y, z [m], roll [rad], jaw (0 closed to
             1 open); shape (2, POSE).
         records: overwritten; of both instruments: tip [m], direction of the shaft, roll, jaw, force of the tissue on
-            the tip [N], force on the hand [N], touch bits, depth of the tip below the rest surface [m], shaft outside the
-            port [m], friction on the surface x, y [N], rest place under the tip x, y [m], moment on the tip about its
-            end [N m], its part about the shaft [N m]; shape (2, RECORD).
+            the tip [N], force on the hand [N], touch bits, depth of the tip below the rest surface [m], shaft outside
+            the port [m], friction on the surface x, y [N], rest place under the tip x, y [m], moment on the tip about
+            its end [N m], its part about the shaft [N m]; shape (2, RECORD).
 
     Returns:
         Whether all went well; if not, a number was not finite, and no force acts.

@@ -113,7 +113,8 @@ def push_each_other(
     Args:
         tick: parameters.
         state: scratch in it is overwritten.
-        one, other: numbers of the patches; they may be the same.
+        one: number of a patch.
+        other: of the one that presses; it may be the same.
         out: overwritten, shape (P P, P P).
     """
     points = tick.offsets.shape[1]

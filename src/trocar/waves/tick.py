@@ -258,7 +258,8 @@ def _continued(rows: FloatArray) -> FloatArray:
 
 
 def _waves(size: tuple[float, float], spectrum: FloatArray) -> tuple[FloatArray, FloatArray]:
-    return tuple(np.pi / side * np.arange(count) for side, count in zip(size, spectrum.shape, strict=True))
+    rows, columns = spectrum.shape
+    return pi / size[0] * np.arange(float(rows)), pi / size[1] * np.arange(float(columns))
 
 
 def _between(spectrum: FloatArray, size: tuple[float, float], offsets: FloatArray) -> FloatArray:

@@ -1,4 +1,4 @@
-"""What one tick of the live tissue costs, beside what the machine could do at best and what else there is."""
+"""What one tick of the live trainer costs, beside what the machine could do at best and what else there is."""
 
 from __future__ import annotations
 
@@ -7,45 +7,73 @@ from itertools import pairwise
 from time import perf_counter, perf_counter_ns
 
 import numpy as np
-from numba import njit
 
+from trocar.contact.instrument import Instrument, TipKind
+from trocar.contact.tips import TIPS
 from trocar.model import FloatArray, Load, Press, Profile, Support
 from trocar.reference import FEASolid
+from trocar.simulation import (
+    DT,
+    FORCE,
+    RECORD,
+    Scene,
+    SceneState,
+    advance,
+    at_rest,
+    make_scene,
+    play,
+    played,
+    poses_along,
+)
 from trocar.study.cost.clock import cpu_time, empty_loop, triad_bandwidth
 from trocar.tissues.tissue import Tissue
-from trocar.waves.cutoff import measured_cutoff, modes_for
+from trocar.waves.cutoff import modes_for
 from trocar.waves.membrane import WaveMembrane
-from trocar.waves.tick import Tick, TickState, advance_tick, at_rest, make_tick
+from trocar.waves.near_field import SMOOTH
+from trocar.waves.tick import Tick
 
-DT = 1e-3  # [s] the live trainer's tick
-_TICKS = 400  # of the history: a press of both tools while they move
+_TICKS = 400  # of the history: both tips go round
+_LANDING = 100  # ticks before it, in which they come down from above the block
 _SINGLE_TICKS = 4000  # single calls that the 99th percentile is taken of
 _RELEASED_TICKS = 20_000  # 20 s after release: long enough for what decays at 40/s to pass below 1e-308
 _FEA_STEPS = 5
+_FINER = 1e-2  # of the tolerance: what the scene with all modes that matter is made for
+_APART = 0.5  # of the block's width, between the tips
+_TOGETHER = 1.5  # of their diameter, where they are close
+_ROUND = 3e-3  # [m] radius of the circle a tip goes along, 47 mm/s
+_DEEP = 0.2  # of a tip's diameter
+_OVER = 2e-3  # [m] above the block, where they come from
+_LENGTH, _ABOVE, _ASIDE = (
+    0.31,
+    0.1,
+    0.08,
+)  # [m] of the shafts; their ports, above the block and from its middle
 
 
 @dataclass(frozen=True, kw_only=True)
 class TickCost:
-    """One tick of 1 ms with two tools, in microseconds of CPU time unless said otherwise.
+    """One tick of 1 ms with two probes that slide over the tissue, in microseconds of CPU time unless said otherwise.
 
     Attributes:
-        diameter_mm: of both tools' footprints.
+        diameter_mm: of both tips, balls.
         layers: of the tissue.
         modes: that move, of each layer.
         oscillators: modes times layers.
-        error: largest difference from a model with all modes that matter, over the largest displacement [1].
+        error: largest difference of a force from that with all modes that matter, over the largest force [1].
+        pressing: points that press in a tick, of both patches, mean over the history.
         tick_us, tick_least_us: a tick inside a compiled loop, median and least of the repeats.
+        together_us: the same with the tips close together, solved as one.
         call_us, call_p99_us: a tick called from Python, wall time, median and 99th percentile.
-        released_us: a tick 20 s after both tools let go.
+        released_us: a tick 20 s after both instruments were taken away.
         empty_us: one pass of an empty compiled loop.
         kilobytes: that a tick reads and writes.
         triad_gb_s: bandwidth of a triad over as many bytes.
         floor_us: the former over the latter.
-        python_us: the same step and read-out by `WaveMembrane`.
+        python_us: a step and its read-out by `WaveMembrane`, without contact.
         fea_us: one prefactored finite-element step of 1 ms under one tool in the middle, default mesh.
         fea_dofs, fea_solver: its unknowns and who solves.
-        set_up_s: modes, their fit to the layered solid left out.
-        compile_s: the first call; a fraction of it once the compiled code is cached.
+        set_up_s: of the scene, the fit of its membranes left out.
+        compile_s: the first history; a fraction of it once the compiled code is cached.
     """
 
     diameter_mm: float
@@ -53,8 +81,10 @@ class TickCost:
     modes: int
     oscillators: int
     error: float
+    pressing: float
     tick_us: float
     tick_least_us: float
+    together_us: float
     call_us: float
     call_p99_us: float
     released_us: float
@@ -75,53 +105,56 @@ class TickCost:
 
 
 def tick_cost(tissue: Tissue, *, size: tuple[float, float], radius: float, tolerance: float) -> TickCost:
-    """Measure a tick with two Gaussian tools of one radius [m] on a fitted membrane.
+    """Measure a tick of two probes with tips of one radius [m] on a fitted membrane.
 
     Args:
         tissue: the layers.
         size: sides of the block [m].
-        radius: of the tools [m].
-        tolerance: relative error of the deflection under a tool that the modes are chosen for [1].
+        radius: of the tips [m].
+        tolerance: of what a patch feels, that the modes are chosen for [1].
     """
-    stack = WaveMembrane.fitted(tissue, size=size, modes=(1, 1)).stack
-    radii = (radius, radius)
-    fine = WaveMembrane(stack, size=size, modes=modes_for(radius, Profile.GAUSSIAN, size, 1e-6 * tolerance))
-    compliance = fine.static_compliance()
+    stack = WaveMembrane.fitted(tissue, size=size, modes=(1, 1), support=Support.BASE).stack
+    modes = modes_for(2 * SMOOTH, Profile.GAUSSIAN, size, _FINER * tolerance)
+    model = WaveMembrane(stack, size=size, modes=modes, support=Support.BASE, tissue=tissue)
+    instruments = two_probes(size, radius)
     began = perf_counter()
-    cutoff = measured_cutoff(compliance, size, radius, Profile.GAUSSIAN, tolerance)
-    modes = (int(cutoff * size[0] / np.pi), int(cutoff * size[1] / np.pi))
-    model = WaveMembrane(stack, size=size, modes=modes)
-    tick = make_tick(model, DT, radii, cutoff=cutoff)
+    scene = make_scene(model, tissue, instruments, tolerance=tolerance)
     set_up = perf_counter() - began
 
-    history = two_presses(size)
+    history = poses_along(instruments, two_circles(size, radius, _APART * size[0]))
     began = perf_counter()
-    coarse = played(tick, history)
+    coarse = played(scene, history)
     compiled = perf_counter() - began
-    exact = played(make_tick(fine, DT, radii), history)
-    error = float(np.abs(coarse - exact).max() / np.abs(exact).max())
+    exact = played(make_scene(model, tissue, instruments, tolerance=_FINER * tolerance), history)
+    forces = slice(FORCE, FORCE + 3)
+    error = float(np.abs(coarse - exact)[..., forces].max() / np.abs(exact[..., forces]).max())
 
-    state, out = at_rest(tick), np.zeros((2, len(model.layer_names)))
-    outs = np.zeros((len(history), *out.shape))
-    loop = cpu_time(lambda: play(tick, state, history, outs), executions=len(history))
-    singles = _single_calls(tick, state, history, out)
-    released = history.copy()
-    released[:, :, 2] = 0.0
+    state, records = at_rest(scene), np.zeros((_TICKS, *coarse.shape[1:]))
+    played(scene, history[:_LANDING], state)
+    history = history[_LANDING:]
+    pressing = _pressing(scene, state, history)
+    loop = cpu_time(lambda: play(scene, state, history, records), executions=len(history))
+    singles = _single_calls(scene, state, history)
+    together = poses_along(instruments, two_circles(size, radius, 2 * radius * _TOGETHER))[_LANDING:]
+    close = cpu_time(lambda: play(scene, state, together, records), executions=len(history))
+    nobody = np.zeros_like(history)
     for _ in range(_RELEASED_TICKS // len(history)):
-        play(tick, state, released, outs)
-    after = cpu_time(lambda: play(tick, state, released, outs), executions=len(history))
+        play(scene, state, nobody, records)
+    after = cpu_time(lambda: play(scene, state, nobody, records), executions=len(history))
 
-    bytes_touched = touched(tick)
+    bytes_touched = touched(scene.tick)
     bandwidth = triad_bandwidth(bytes_touched)
     fea, fea_us = _fea_step(tissue, size, radius)
     return TickCost(
         diameter_mm=2e3 * radius,
-        layers=len(model.layer_names),
-        modes=len(tick.kept),
-        oscillators=len(tick.kept) * tick.shape[0],
+        layers=scene.layers,
+        modes=len(scene.tick.kept),
+        oscillators=len(scene.tick.kept) * scene.tick.shape[0],
         error=error,
+        pressing=pressing,
         tick_us=1e6 * loop.median,
         tick_least_us=1e6 * loop.least,
+        together_us=1e6 * close.median,
         call_us=1e-3 * float(np.median(singles)),
         call_p99_us=1e-3 * float(np.percentile(singles, 99)),
         released_us=1e6 * after.median,
@@ -129,7 +162,7 @@ def tick_cost(tissue: Tissue, *, size: tuple[float, float], radius: float, toler
         kilobytes=1e-3 * bytes_touched,
         triad_gb_s=1e-9 * bandwidth,
         floor_us=1e6 * bytes_touched / bandwidth,
-        python_us=1e6 * _python_step(model, history, radius),
+        python_us=1e6 * _python_step(model, size, radius),
         fea_us=fea_us,
         fea_dofs=fea.dofs,
         fea_solver=fea.solver_name,
@@ -138,62 +171,88 @@ def tick_cost(tissue: Tissue, *, size: tuple[float, float], radius: float, toler
     )
 
 
-def two_presses(size: tuple[float, float]) -> FloatArray:
-    """Return x [m], y [m] and force [N] of two tools that press while they slide, shape (ticks, 2, 3)."""
-    phase = np.linspace(0, 2 * np.pi, _TICKS)
-    a, b = size
-    first = np.stack(
-        [a * (0.35 + 0.05 * np.sin(phase)), b * (0.5 + 0.1 * phase / 6.3), 0.1 * np.sin(phase / 2) ** 2]
+def two_probes(size: tuple[float, float], radius: float) -> tuple[Instrument, Instrument]:
+    """Return two probes whose tips have this radius [m], through ports on both sides of the block."""
+    left, right = (
+        Instrument(
+            name=name,
+            port=(0.5 * size[0] + side * _ASIDE, 0.5 * size[1], _ABOVE),
+            length=_LENGTH,
+            shaft_radius=radius / TIPS[TipKind.PROBE].axes[0],
+            tip=TipKind.PROBE,
+            handle=(0.5 * size[0] + 2 * side * _ASIDE, 0.5 * size[1], 2 * _ABOVE),
+        )
+        for name, side in (("left", -1), ("right", 1))
     )
-    second = np.stack(
-        [a * (0.7 - 0.05 * phase / 6.3), b * (0.4 + 0.05 * np.cos(phase)), 0.06 * np.sin(phase) ** 2]
+    return left, right
+
+
+def two_circles(size: tuple[float, float], radius: float, apart: float) -> tuple[FloatArray, FloatArray]:
+    """Return ways of two tips that slide along circles, pressed in all the time, after they came down to them.
+
+    Args:
+        size: sides of the block [m].
+        radius: of the tips [m].
+        apart: between the circles' middles [m].
+
+    Returns:
+        Places [m], two of shape (ticks, 3).
+    """
+    phase = np.linspace(0, 2 * np.pi, _TICKS, endpoint=False)
+    deep = np.concatenate(
+        [np.linspace(_OVER, -2 * _DEEP * radius, _LANDING), np.full(_TICKS, -2 * _DEEP * radius)]
     )
-    return np.ascontiguousarray(np.stack([first.T, second.T], axis=1))
-
-
-def played(tick: Tick, history: FloatArray) -> FloatArray:
-    """Return what every layer does under both tools, from rest, shape (ticks, tools, layers)."""
-    out = np.zeros((*history.shape[:2], tick.shape[1]))
-    play(tick, at_rest(tick), history, out)
-    return out
-
-
-@njit(cache=True)
-def play(
-    tick: Tick, state: TickState, history: FloatArray, out: FloatArray
-) -> None:  # pragma: no cover - compiled
-    """Advance through a history of tools, shape (ticks, tools, 3); writes shape (ticks, tools, layers)."""
-    for i in range(len(history)):
-        advance_tick(tick, state, history[i], out[i])
+    phase = np.concatenate([np.zeros(_LANDING), phase])
+    left, right = (
+        np.stack(
+            [
+                0.5 * size[0] + 0.5 * side * apart + _ROUND * np.cos(phase),
+                0.5 * size[1] + _ROUND * np.sin(phase),
+                deep,
+            ],
+            axis=1,
+        )
+        for side in (-1, 1)
+    )
+    return left, right
 
 
 def touched(tick: Tick) -> int:
     """Return the bytes that a tick reads and writes, scratch that stays in the nearest cache left out."""
-    order, layers, _, _ = tick.shape
-    coefficients = 6 * order + layers * (2 * order + 1)
-    changed = 2 * order + 1  # blocks and force, read and written
-    return int(tick.modes.sum()) * 8 * (coefficients + 2 * changed)
+    order = tick.shape[0]
+    coefficients = 8 * order  # of a step, and of the top face
+    changed = 2 * (2 * order + 2)  # blocks, force and face, read and written
+    return int(tick.modes.sum()) * 8 * (coefficients + changed) + tick.inside.nbytes
 
 
-def _single_calls(tick: Tick, state: TickState, history: FloatArray, out: FloatArray) -> FloatArray:
-    taken = np.empty(_SINGLE_TICKS)
+def _pressing(scene: Scene, state: SceneState, history: FloatArray) -> float:
+    records = np.zeros((2, RECORD))
+    counts = []
+    for poses in history:
+        advance(scene, state, poses, records)
+        counts.append(state.touching.sum())
+    return float(np.mean(counts))
+
+
+def _single_calls(scene: Scene, state: SceneState, history: FloatArray) -> FloatArray:
+    taken, records = np.empty(_SINGLE_TICKS), np.zeros((2, RECORD))
     for i in range(_SINGLE_TICKS):
-        tools = history[i % len(history)]
+        poses = history[i % len(history)]
         began = perf_counter_ns()
-        advance_tick(tick, state, tools, out)
+        advance(scene, state, poses, records)
         taken[i] = perf_counter_ns() - began
     return taken
 
 
-def _loads(history: FloatArray, radius: float) -> list[Load]:
-    return [
-        tuple(Press(x=x, y=y, radius=radius, force=f, profile=Profile.GAUSSIAN) for x, y, f in tools.tolist())
-        for tools in history
+def _python_step(model: WaveMembrane, size: tuple[float, float], radius: float) -> float:
+    left, right = two_circles(size, radius, _APART * size[0])
+    loads: list[Load] = [
+        tuple(
+            Press(x=x, y=y, radius=2 * SMOOTH, force=0.1, profile=Profile.GAUSSIAN)
+            for x, y in (left[i, :2].tolist(), right[i, :2].tolist())
+        )
+        for i in range(11)
     ]
-
-
-def _python_step(model: WaveMembrane, history: FloatArray, radius: float) -> float:
-    loads = _loads(history[100:111], radius)
 
     def work() -> None:
         state = model.init()
