@@ -19,8 +19,12 @@ WORKERS ?= 2
 help:  ## list the targets
 	@sed -nE 's/^([a-z]+)( [a-z]+)?:.*## /make \1\t/p' $(MAKEFILE_LIST) | expand -t 12
 
-.PHONY: run study
-run study: .venv/ready  ## set up, then run the validation study into study/ (make study is the same)
+.PHONY: run
+run: .venv/ready  ## set up, then open the trainer in the browser; Ctrl-C ends it
+	@.venv/bin/trocar train
+
+.PHONY: study
+study: .venv/ready  ## set up, then run the validation study into study/
 	@.venv/bin/trocar study --out study
 
 .PHONY: test

@@ -20,7 +20,7 @@ ROLLS = [0.0, 0.7, -2.5]
 
 
 def frame(direction, roll):
-    """Rows x, y, z of the tool: z back along the shaft, y as far up as it may, turned by roll about the way to the tip."""
+    """Rows x, y, z of the tool: z back along the shaft, y as far up as it may, turned by roll about the shaft."""
     back = -np.array(direction, dtype=float) / np.linalg.norm(direction)
     up = np.array([0.0, 0.0, 1.0]) if np.hypot(*back[:2]) > 1e-3 else np.array([0.0, 1.0, 0.0])
     y = up - up @ back * back
