@@ -15,7 +15,14 @@ def solved(compliance, below, holding=None, touching=None):
     touching = np.zeros(pads, dtype=bool) if touching is None else touching
     forces = np.full(pads, np.nan)
     found = press(
-        compliance, below, holding, touching, forces, np.empty((pads, pads)), np.empty(pads, dtype=np.int64)
+        compliance,
+        below,
+        holding,
+        touching,
+        forces,
+        np.empty((pads, pads)),
+        np.zeros(pads + 1, dtype=np.int64),
+        np.empty(pads, dtype=bool),
     )
     return found, forces, touching
 
@@ -76,3 +83,30 @@ def test_a_surface_that_gives_energy_away_is_refused():
     )
     assert not found
     assert (forces == 0).all()
+
+
+def test_a_factor_that_is_used_again_gives_the_same_bits():
+    generator = np.random.default_rng(4)
+    compliance, below = problem(generator, 20)
+    holding, touching = np.zeros(20, dtype=bool), np.zeros(20, dtype=bool)
+    forces, factor = np.empty(20), np.empty((20, 20))
+    order, wrong = np.zeros(21, dtype=np.int64), np.empty(20, dtype=bool)
+    for _ in range(30):
+        below = below + 0.05 * generator.normal(size=20)
+        assert press(compliance, below, holding, touching, forces, factor, order, wrong)
+        assert (forces == solved(compliance, below, touching=touching.copy())[1]).all()
+
+
+def test_a_factor_of_another_compliance_is_forgotten_by_its_count():
+    generator = np.random.default_rng(5)
+    compliance, below = problem(generator, 12)
+    holding, touching = np.zeros(12, dtype=bool), np.zeros(12, dtype=bool)
+    forces, factor = np.empty(12), np.empty((12, 12))
+    order, wrong = np.zeros(13, dtype=np.int64), np.empty(12, dtype=bool)
+    press(compliance, below, holding, touching, forces, factor, order, wrong)
+    before = forces.copy()
+    press(2 * compliance, below, holding, touching, forces, factor, order, wrong)
+    assert (forces == before).all()  # the old factor: whoever changes W has to say so
+    order[-1] = 0
+    press(2 * compliance, below, holding, touching, forces, factor, order, wrong)
+    assert forces == pytest.approx(before / 2)

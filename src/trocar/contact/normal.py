@@ -37,6 +37,7 @@ def press(
     forces: FloatArray,
     factor: FloatArray,
     order: IntArray,
+    wrong: BoolArray,
 ) -> bool:  # pragma: no cover - compiled
     """Solve for the pads' forces; nothing is allocated.
 
@@ -46,8 +47,10 @@ def press(
         holding: which pads hold the tissue and may pull, shape (n,).
         touching: which pads press; where to start from, and overwritten, shape (n,).
         forces: overwritten with p [N], shape (n,).
-        factor: scratch, shape (n, n).
-        order: scratch, shape (n,).
+        factor: of W among the pads that press or hold; overwritten, shape (n, n).
+        order: which pads the factor is of, and how many as the last number; overwritten, shape (n + 1,). While the
+            same pads press the factor is used again: the last number must be 0 whenever W is another.
+        wrong: scratch, shape (n,).
 
     Returns:
         Whether an answer was found; if not, W was not positive definite or a number not finite, and p is zero.
@@ -56,37 +59,35 @@ def press(
     scale = 0.0
     for i in range(pads):
         if not np.isfinite(below[i]):
-            forces[:] = 0.0
-            touching[:] = False
-            return False
+            return _gave_up(touching, forces, order)
         scale = max(scale, abs(below[i]))
     gap_slack = 1e-12 * scale  # rounding of the triangular solves, far below a molecule
     fewest, patience = pads + 1, _PATIENCE
     for _ in range(_MOST * pads + 1):
         if not _forces_of(compliance, below, holding, touching, forces, factor, order):
-            forces[:] = 0.0
-            touching[:] = False
-            return False
-        wrong, last = 0, -1
+            return _gave_up(touching, forces, order)
+        count, last = 0, -1
         for i in range(pads):
-            if _is_wrong(compliance, below, holding, touching, forces, i, gap_slack):
-                wrong, last = wrong + 1, i
-        if wrong == 0:
+            wrong[i] = _is_wrong(compliance, below, holding, touching, forces, i, gap_slack)
+            if wrong[i]:
+                count, last = count + 1, i
+        if count == 0:
             return True
-        if wrong < fewest:
-            fewest, patience = wrong, _PATIENCE
+        if count < fewest:
+            fewest, patience = count, _PATIENCE
         else:
             patience -= 1
-        if patience >= 0:
-            for i in range(pads):  # order is free again: it keeps which pads to exchange
-                order[i] = _is_wrong(compliance, below, holding, touching, forces, i, gap_slack)
-            for i in range(pads):
-                if order[i]:
-                    touching[i] = not touching[i]
-        else:
-            touching[last] = not touching[last]
+        for i in range(pads):
+            if wrong[i] and (patience >= 0 or i == last):
+                touching[i] = not touching[i]
+    return _gave_up(touching, forces, order)
+
+
+@njit(cache=True)
+def _gave_up(touching: BoolArray, forces: FloatArray, order: IntArray) -> bool:  # pragma: no cover - compiled
     forces[:] = 0.0
     touching[:] = False
+    order[-1] = 0
     return False
 
 
@@ -133,29 +134,46 @@ def _forces_of(
     order: IntArray,
 ) -> bool:  # pragma: no cover - compiled
     """Solve g = 0 for the pads that touch or hold, p = 0 for the others, by Cholesky."""
-    count = 0
+    count, known = 0, True
     for i in range(len(below)):
         forces[i] = 0.0
         if touching[i] or holding[i]:
+            known = known and count < order[-1] and order[count] == i
             order[count] = i
             count += 1
+    known = known and count == order[-1]
+    order[-1] = count
+    if not known and not _factored(compliance, factor, order, count):
+        return False
     for r in range(count):
-        for c in range(r + 1):
-            total = compliance[order[r], order[c]] - _dot(factor[r], factor[c], c)
-            if r > c:
-                factor[r, c] = total / factor[c, c]
-            elif total > 0.0:
-                factor[r, r] = sqrt(total)
-            else:
-                return False
+        forces[order[r]] = below[order[r]]
     for r in range(count):
-        total = below[order[r]]
-        for k in range(r):
-            total -= factor[r, k] * forces[order[k]]
-        forces[order[r]] = total / factor[r, r]
-    for r in range(count - 1, -1, -1):
         total = forces[order[r]]
-        for k in range(r + 1, count):
-            total -= factor[k, r] * forces[order[k]]
-        forces[order[r]] = total / factor[r, r]
+        row = factor[r]
+        for k in range(r):
+            total -= row[k] * forces[order[k]]
+        forces[order[r]] = total / row[r]
+    for r in range(count - 1, -1, -1):
+        row = factor[r]
+        forces[order[r]] /= row[r]
+        done = forces[order[r]]
+        for k in range(r):
+            forces[order[k]] -= row[k] * done
+    return True
+
+
+@njit(cache=True)
+def _factored(
+    compliance: FloatArray, factor: FloatArray, order: IntArray, count: int
+) -> bool:  # pragma: no cover - compiled
+    """Write Cholesky's factor of W among the first pads of an order; False where W is not positive definite."""
+    for r in range(count):
+        row = factor[r]
+        pads = compliance[order[r]]
+        for c in range(r):
+            row[c] = (pads[order[c]] - _dot(row, factor[c], c)) / factor[c, c]
+        total = pads[order[r]] - _dot(row, row, r)
+        if not total > 0.0:
+            return False
+        row[r] = sqrt(total)
     return True

@@ -7,8 +7,11 @@ with the tissue at rest; if this process dies, the servo ends within two seconds
 
 from __future__ import annotations
 
+import os
 import signal
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import IntFlag
 from multiprocessing import get_context, resource_tracker
@@ -33,6 +36,7 @@ from trocar.simulation import DRAG, FORCE, HANDLE, HANDLE_FORCE, JAW, PRESENT, R
 
 START_WITHIN = 300.0  # [s] for compiling everything on a slow and busy machine, the first time
 _STOP_WITHIN = 0.5  # [s] for the loop to see the flag, then for SIGTERM to work
+_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 _WAIT = 5e-3  # [s] between looks
 
 
@@ -177,7 +181,8 @@ class Servo:
         resource_tracker.ensure_running()  # it would take SIGINT's block away below, were it started there
         blocked = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         try:  # the process begins deaf to Ctrl-C, and later ignores it
-            process.start()
+            with _one_thread():
+                process.start()
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
         sender.close()
@@ -337,6 +342,21 @@ class Servo:
         if process.is_alive():
             process.kill()
             process.join()
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """Let a process that is started now compute with one thread: those of a library wait for each other."""
+    before = {name: os.environ.get(name) for name in _THREADS}
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
 
 
 def _reason(code: int | None) -> str:

@@ -29,7 +29,7 @@ def sliding_contact(
         depth: of the tips below the rest surface [m].
     """
     instruments = default_instruments(size)
-    scene = make_scene(WaveMembrane.derived(tissue, size=size), tissue, instruments)
+    scene = make_scene(WaveMembrane.fitted(tissue, size=size, modes=(52, 52)), tissue, instruments)
     return scene, at_rest(scene), circling(instruments, size, depth)
 
 

@@ -24,7 +24,7 @@ from trocar.waves.tick import at_rest as tissue_at_rest
 
 DT = 1e-3  # [s] one tick
 POINTS = 7  # of a patch, along x as along y
-TOLERANCE = 1e-6  # of what a patch feels, that the modes are chosen for
+TOLERANCE = 1e-4  # of what a patch feels, that the modes are chosen for
 FRICTION = 0.1  # coefficient of wet steel on wet tissue; chosen, between 0.03 and 0.3 of the literature
 _SPACING = 0.2  # of a patch's points, in a tip's mean semi-axis
 _WIDTH = 0.4  # of a point's Gaussian, in spacings
@@ -87,7 +87,9 @@ class SceneState(NamedTuple):
         flags: of both instruments: in the hand, free to touch, gripping, jaw, normal force [N]; shape (2, 5).
         depths: of the tips' undersides below the rest surface at every point [m], shape (2, P P).
         slopes: of the undersides there, along x and y [1], shape (2, P P, 2).
-        sunk, below, own, factor, order: scratch of the normal contact; `both` and `both_factor` where the patches meet.
+        factor, order: of each patch's W, remembered from tick to tick.
+        inside: whether they are of `Scene.own`, shape (2,).
+        sunk, below, own, across, rest, wrong: scratch of the normal contact.
         centre, spread: scratch of the tips, shapes (3,), (3, 3).
         vectors: scratch, shape (6, 3).
     """
@@ -104,10 +106,12 @@ class SceneState(NamedTuple):
     sunk: FloatArray
     below: FloatArray
     own: FloatArray
-    both: FloatArray
+    across: FloatArray
+    rest: FloatArray
     factor: FloatArray
-    both_factor: FloatArray
     order: np.ndarray
+    inside: np.ndarray
+    wrong: np.ndarray
     centre: FloatArray
     spread: FloatArray
     vectors: FloatArray
@@ -195,10 +199,12 @@ def at_rest(scene: Scene) -> SceneState:
         sunk=np.zeros((tools, each)),
         below=np.zeros(points),
         own=np.zeros((tools, each, each)),
-        both=np.zeros((points, points)),
-        factor=np.zeros((each, each)),
-        both_factor=np.zeros((points, points)),
-        order=np.zeros(points, dtype=np.int64),
+        across=np.zeros((each, each)),
+        rest=np.zeros(points),
+        factor=np.zeros((tools, each, each)),
+        order=np.zeros((tools, each + 1), dtype=np.int64),
+        inside=np.zeros(tools, dtype=np.bool_),
+        wrong=np.zeros(each, dtype=np.bool_),
         centre=np.zeros(3),
         spread=np.zeros((3, 3)),
         vectors=np.zeros((6, 3)),

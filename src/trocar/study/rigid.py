@@ -171,15 +171,12 @@ def _balanced(
     stiff = np.linalg.solve(compliance, np.column_stack([sums.T, shape]))
     depths = np.linalg.solve(sums @ stiff[:, :-1], totals + sums @ stiff[:, -1])  # as if all pads were held
     touching, forces = np.ones(pads, dtype=bool), np.empty(pads)
-    holding, factor, order = (
-        np.zeros(pads, dtype=bool),
-        np.empty((pads, pads)),
-        np.empty(pads, dtype=np.int64),
-    )
+    holding, wrong = np.zeros(pads, dtype=bool), np.empty(pads, dtype=bool)
+    factor, order = np.empty((pads, pads)), np.zeros(pads + 1, dtype=np.int64)
     exact = _SUMS * totals + _ROUNDING * totals.max()
     best, step = -np.inf, np.zeros_like(depths)
     for _ in range(_MOST_TRIES):
-        if not press(compliance, sums.T @ depths - shape, holding, touching, forces, factor, order):
+        if not press(compliance, sums.T @ depths - shape, holding, touching, forces, factor, order, wrong):
             break
         lacking = totals - sums @ forces
         if (np.abs(lacking) <= exact).all():

@@ -10,7 +10,7 @@ exact step
 z1 is where the block would be without the next force, and W what that force adds at once by the end of the tick, which
 is what an implicit contact law asks for. Layer k's amplitude is R_k z1 + (R_k W) f1.
 
-Memory: a strip is up to 64 modes of one row m, and its coefficients lie in planes of 64, one after the other, so that a
+Memory: a strip is up to 32 modes of one row m, and its coefficients lie in planes of 32, one after the other, so that a
 compiled loop over a strip runs along every plane at once. Only modes with kx^2 + ky^2 <= K^2 are kept.
 """
 
@@ -30,11 +30,11 @@ from trocar.waves.state import require_step
 
 IntArray = npt.NDArray[np.int64]
 
-STRIP = 64  # modes: a strip's planes share a page of memory, and few rows need a second strip
+STRIP = 32  # modes: a strip's planes share a page of memory, and few rows need a second strip
 LANES = 8  # doubles in the widest vector register; strips are padded to a multiple with zeros
 STEP_PLANES = 6  # of one block: E (4), E W (2)
 _CONTINUED = 8  # rows from which the waves without a sine are continued
-FAR = 1e-6  # of its own: what a point does to another within one tick is left out below
+FAR = 1e-4  # of its own: what a point does to another within one tick is left out below
 
 
 class LiveWaves(Protocol):
@@ -60,10 +60,10 @@ class Tick(NamedTuple):
     """What a tick needs to know; a named tuple, because compiled code takes one whole. Nothing in it changes.
 
     Attributes:
-        planes: coefficients, shape (strips, planes * 64): for each of r blocks E00, E01, E10, E11, G0, G1 with
+        planes: coefficients, shape (strips, planes * 32): for each of r blocks E00, E01, E10, E11, G0, G1 with
             G = E W; then for each of k layers R0, R1 of every block, and R W.
         row: m - 1 of each strip, shape (strips,).
-        first: n - 1 of its first mode, a multiple of 64, shape (strips,).
+        first: n - 1 of its first mode, a multiple of 32, shape (strips,).
         modes: how many modes a strip steps, padding included, shape (strips,).
         offsets: of a patch's points from its centre, along x as along y [m], shape (tools, P).
         shift_x, shift_y: exp(-(s k)^2/4) times cos(k d) and sin(k d) of its points' offsets d, shapes (2, tools P, M)
@@ -105,7 +105,7 @@ class TickState(NamedTuple):
     """What a tick changes, in place.
 
     Attributes:
-        blocks: z = x - W f, shape (strips, 2 r * 64).
+        blocks: z = x - W f, shape (strips, 2 r * 32).
         force: modal forces f held in the last tick [N], shape (M, N padded).
         shapes_x, shapes_y: sin(kx x) and sin(ky y) at every patch's points times what the window passes, shapes
             (tools P, M) and (tools P, N padded).
