@@ -82,13 +82,18 @@ class SceneState(NamedTuple):
         tick: the waves.
         forces: of every point of both patches into the surface [N], shape (2 P P,).
         touching, holding: which of them press, and which hold the tissue, shape (2 P P,).
-        drag: friction of both tips on the surface, x and y [N], shape (2, 2).
+        drag: of both tips along the surface, x and y: friction and what the slopes under them push aside [N],
+            shape (2, 2).
+        aside: the latter alone [N], shape (2, 2).
+        slip: of both tips over the surface in this tick, x and y [m], shape (2, 2).
         lowest: lowest points of both tips [m], shape (2, 3); the next three are also of the last tick.
         flags: of both instruments: in the hand, free to touch, gripping, jaw, normal force [N]; shape (2, 5).
         depths: of the tips' undersides below the rest surface at every point [m], shape (2, P P).
         slopes: of the undersides there, along x and y [1], shape (2, P P, 2).
         sunk, below, own, factor, order: scratch of the normal contact; `both` and `both_factor` where the patches meet.
-        centre, spread: scratch of the tips, shapes (3,), (3, 3).
+        middles, spreads: of the tips' ellipsoids, as seen from their lowest points [m], and S of `contact.tips` [m^2],
+            shapes (2, 3), (2, 3, 3).
+        centre: scratch, shape (3,).
         vectors: scratch, shape (6, 3).
     """
 
@@ -97,6 +102,8 @@ class SceneState(NamedTuple):
     touching: np.ndarray
     holding: np.ndarray
     drag: FloatArray
+    aside: FloatArray
+    slip: FloatArray
     lowest: FloatArray
     flags: FloatArray
     depths: FloatArray
@@ -108,8 +115,9 @@ class SceneState(NamedTuple):
     factor: FloatArray
     both_factor: FloatArray
     order: np.ndarray
+    middles: FloatArray
+    spreads: FloatArray
     centre: FloatArray
-    spread: FloatArray
     vectors: FloatArray
 
 
@@ -188,6 +196,8 @@ def at_rest(scene: Scene) -> SceneState:
         touching=np.zeros(points, dtype=np.bool_),
         holding=np.zeros(points, dtype=np.bool_),
         drag=np.zeros((tools, 2)),
+        aside=np.zeros((tools, 2)),
+        slip=np.zeros((tools, 2)),
         lowest=np.zeros((tools, 3)),
         flags=np.zeros((tools, 5)),
         depths=np.zeros((tools, each)),
@@ -199,8 +209,9 @@ def at_rest(scene: Scene) -> SceneState:
         factor=np.zeros((each, each)),
         both_factor=np.zeros((points, points)),
         order=np.zeros(points, dtype=np.int64),
+        middles=np.zeros((tools, 3)),
+        spreads=np.zeros((tools, 3, 3)),
         centre=np.zeros(3),
-        spread=np.zeros((3, 3)),
         vectors=np.zeros((6, 3)),
     )
 
