@@ -54,7 +54,7 @@ def train(
     from trocar.web.prepare import prepare
     from trocar.web.serve import check_address, serve
 
-    hands = _device(device, script=script, seed=seed, recording=recording)
+    hands = _device(device, ports, script=script, seed=seed, recording=recording)
     check_address(listen, cert, key)
     log = Console(stderr=True, highlight=False)
     with log.status("") as status:
@@ -81,9 +81,11 @@ def train(
     log.print("The trainer has stopped.")
 
 
-def _device(name: str, **given: Any) -> Device | None:
+def _device(name: str, ports: str, **given: Any) -> Device | None:
     """Make the device named; None is the page's hands."""
+    from trocar.contact.port_sets import instruments_through
     from trocar.devices.catalogue import device, entry
+    from trocar.web.prepare import SIZE
 
     options = {option: value for option, value in given.items() if value is not None}
     entry(name)
@@ -91,6 +93,8 @@ def _device(name: str, **given: Any) -> Device | None:
         for option in options:
             raise typer.BadParameter(f"--{option} is for devices other than web")
         return None
+    if name == "simulated":
+        options["instruments"] = instruments_through(ports, SIZE)
     return device(name, **options)
 
 

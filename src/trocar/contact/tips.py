@@ -117,3 +117,15 @@ def underside(
     thick = sqrt(max(spread[2, 2] - tx * spread[0, 2] - ty * spread[1, 2], 0.0))
     root = sqrt(left)
     return tx * dx + ty * dy - thick * root, tx + thick * ax / root, ty + thick * ay / root
+
+
+@njit(cache=True)
+def underside_or_side(spread: FloatArray, dx: float, dy: float) -> float:  # pragma: no cover - compiled
+    """Return the underside's height as `underside` does, and beside the ellipsoid that of its widest section [m]."""
+    det = spread[0, 0] * spread[1, 1] - spread[0, 1] * spread[0, 1]
+    ax = (spread[1, 1] * dx - spread[0, 1] * dy) / det
+    ay = (spread[0, 0] * dy - spread[0, 1] * dx) / det
+    tx = (spread[1, 1] * spread[0, 2] - spread[0, 1] * spread[1, 2]) / det
+    ty = (spread[0, 0] * spread[1, 2] - spread[0, 1] * spread[0, 2]) / det
+    thick2 = spread[2, 2] - tx * spread[0, 2] - ty * spread[1, 2]
+    return float(tx * dx + ty * dy - sqrt(max(thick2, 0.0) * max(1.0 - ax * dx - ay * dy, 0.0)))

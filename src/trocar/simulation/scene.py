@@ -82,7 +82,10 @@ class SceneState(NamedTuple):
         tick: the waves.
         forces: of every point of both patches into the surface [N], shape (2 P P,).
         touching, holding: which of them press, and which hold the tissue, shape (2 P P,).
-        drag: friction of both tips on the surface, x and y [N], shape (2, 2).
+        drag: of both tips along the surface, x and y: friction and what the slopes under them push aside [N],
+            shape (2, 2).
+        aside: the latter alone [N], shape (2, 2).
+        slip: of both tips over the surface in this tick, x and y [m], shape (2, 2).
         lowest: lowest points of both tips [m], shape (2, 3); the next three are also of the last tick.
         flags: of both instruments: in the hand, free to touch, gripping, jaw, normal force [N]; shape (2, 5).
         depths: of the tips' undersides below the rest surface at every point [m], shape (2, P P).
@@ -90,7 +93,9 @@ class SceneState(NamedTuple):
         factor, order: of each patch's W, remembered from tick to tick.
         inside: whether they are of `Scene.own`, shape (2,).
         sunk, below, own, across, rest, wrong: scratch of the normal contact.
-        centre, spread: scratch of the tips, shapes (3,), (3, 3).
+        middles, spreads: of the tips' ellipsoids, as seen from their lowest points [m], and S of `contact.tips` [m^2],
+            shapes (2, 3), (2, 3, 3).
+        centre: scratch, shape (3,).
         vectors: scratch, shape (6, 3).
     """
 
@@ -99,6 +104,8 @@ class SceneState(NamedTuple):
     touching: np.ndarray
     holding: np.ndarray
     drag: FloatArray
+    aside: FloatArray
+    slip: FloatArray
     lowest: FloatArray
     flags: FloatArray
     depths: FloatArray
@@ -112,8 +119,9 @@ class SceneState(NamedTuple):
     order: np.ndarray
     inside: np.ndarray
     wrong: np.ndarray
+    middles: FloatArray
+    spreads: FloatArray
     centre: FloatArray
-    spread: FloatArray
     vectors: FloatArray
 
 
@@ -192,6 +200,8 @@ def at_rest(scene: Scene) -> SceneState:
         touching=np.zeros(points, dtype=np.bool_),
         holding=np.zeros(points, dtype=np.bool_),
         drag=np.zeros((tools, 2)),
+        aside=np.zeros((tools, 2)),
+        slip=np.zeros((tools, 2)),
         lowest=np.zeros((tools, 3)),
         flags=np.zeros((tools, 5)),
         depths=np.zeros((tools, each)),
@@ -205,8 +215,9 @@ def at_rest(scene: Scene) -> SceneState:
         order=np.zeros((tools, each + 1), dtype=np.int64),
         inside=np.zeros(tools, dtype=np.bool_),
         wrong=np.zeros(each, dtype=np.bool_),
+        middles=np.zeros((tools, 3)),
+        spreads=np.zeros((tools, 3, 3)),
         centre=np.zeros(3),
-        spread=np.zeros((3, 3)),
         vectors=np.zeros((6, 3)),
     )
 

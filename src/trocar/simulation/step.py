@@ -4,11 +4,11 @@ In this order, for both instruments at once:
 
 1. The port's lever puts the tips (`contact.port`); a tip's ellipsoid has a lowest point (`contact.tips`), whose motion
    over the surface meets friction (`contact.friction`). The patch stands on the rest place of what lies under it: the
-   surface there has moved by give times friction.
+   surface there has moved by give times what drags it along, friction and the slopes under the tip.
 2. The tissue goes on under the forces held so far, and is read at the patches (`waves.patch`).
 3. Points of the tips' undersides press where they would lie below the surface: force held over the tick, no
    penetration at its end (`contact.normal`), with the near field. Points that hold may pull.
-4. Friction keeps to the new normal force; the forces on the tips come to the hands by the lever.
+4. Slopes push aside, friction keeps to the new normal force; the forces on the tips come to the hands by the lever.
 
 An instrument that is first seen inside the tissue touches nothing until it has been outside: tissue is never thrown.
 """
@@ -22,7 +22,7 @@ from numba import njit
 from trocar.contact.friction import drag
 from trocar.contact.normal import press
 from trocar.contact.port import felt, reach
-from trocar.contact.tips import lowest, turn_body, underside
+from trocar.contact.tips import lowest, turn_body, underside, underside_or_side
 from trocar.model import FloatArray
 from trocar.simulation.scene import Scene, SceneState
 from trocar.waves.patch import go_on, hold, let_go, place_patch, push_each_other, read_layers, read_patches
@@ -45,6 +45,7 @@ _IN_HAND, _FREE, _GRIPPING, _JAW, _NORMAL = range(5)
 _TURNS = 100  # of two patches that push each other in, until they agree; seen: 3 to 12
 _AGREED = 1e-12  # of the deepest point
 _ABOVE = 0.02  # [m] a tip higher above the rest surface than this is not looked at
+_STILL = 1e-9  # [m] a slip below this is none
 _AWAY = -1.0  # [m] depth of a point that lies beside the tip or the block
 
 
@@ -61,7 +62,7 @@ def advance(
             1 open); shape (2, POSE).
         records: overwritten; of both instruments: tip [m], direction of the shaft, roll, jaw, force of the tissue on
             the tip [N], force on the hand [N], touch bits, depth of the tip below the rest surface [m], shaft outside
-            the port [m], friction on the surface x, y [N], rest place under the tip x, y [m], moment on the tip about
+            the port [m], drag on the surface x, y [N], rest place under the tip x, y [m], moment on the tip about
             its end [N m], its part about the shaft [N m]; shape (2, RECORD).
 
     Returns:
@@ -98,6 +99,7 @@ def advance(
     if not well:
         state.forces[:] = 0.0
         state.drag[:] = 0.0
+        state.aside[:] = 0.0
         for t in range(tools):
             records[t, FORCE : HANDLE_FORCE + 3] = 0.0
             records[t, DRAG : DRAG + 2] = 0.0
@@ -122,6 +124,7 @@ def come_to_rest(scene: Scene, state: SceneState) -> None:  # pragma: no cover -
     state.tick.force[:] = 0.0
     state.forces[:] = 0.0
     state.drag[:] = 0.0
+    state.aside[:] = 0.0
     state.touching[:] = False
     state.holding[:] = False
     for t in range(len(state.flags)):
@@ -154,10 +157,13 @@ def _put(
         record[TIP + i], record[DIRECTION + i] = tip[i], direction[i]
         outside += (scene.ports[t, i] - handle[i]) ** 2
     record[OUTSIDE] = sqrt(outside)
-    turn_body(scene.axes[t], scene.middles[t], tip, direction, poses[t, ROLL], state.centre, state.spread)
+    spread = state.spreads[t]
+    turn_body(scene.axes[t], scene.middles[t], tip, direction, poses[t, ROLL], state.centre, spread)
     before_x, before_y = state.lowest[t, 0], state.lowest[t, 1]
-    lowest(state.centre, state.spread, state.lowest[t])
+    lowest(state.centre, spread, state.lowest[t])
     low = state.lowest[t]
+    for i in range(3):
+        state.middles[t, i] = state.centre[i] - low[i]
     on_block = 0.0 < low[0] < scene.tick.size[0] and 0.0 < low[1] < scene.tick.size[1]
     record[DEPTH] = max(-low[2], 0.0) if on_block else 0.0
     if low[2] > 0.0:
@@ -169,31 +175,76 @@ def _put(
     if flags[_FREE] == 0.0 or not on_block or low[2] > _ABOVE:
         _let_go(state, t, points * points)
         return False
-    limit = inf if flags[_GRIPPING] != 0.0 else scene.friction * flags[_NORMAL]
-    drag(state.drag[t], low[0] - before_x, low[1] - before_y, scene.give[t], 1.0, limit)
+    _drag_along(scene, state, t, low[0] - before_x, low[1] - before_y)
     x = low[0] - scene.give[t] * state.drag[t, 0]
     y = low[1] - scene.give[t] * state.drag[t, 1]
     record[PLACE], record[PLACE + 1] = x, y
     place_patch(scene.tick, state.tick, t, x, y)
+    middle = state.middles[t]
     for i in range(points):
         for k in range(points):
             at = i * points + k
             dx, dy = scene.tick.offsets[t, i], scene.tick.offsets[t, k]
             # From the ellipsoid's middle: its lowest point stands over the patch's centre.
-            height, slope_x, slope_y = underside(
-                state.spread, low[0] - state.centre[0] + dx, low[1] - state.centre[1] + dy
-            )
+            height, slope_x, slope_y = underside(spread, dx - middle[0], dy - middle[1])
             inside = 0.0 < x + dx < scene.tick.size[0] and 0.0 < y + dy < scene.tick.size[1]
-            state.depths[t, at] = -(state.centre[2] + height) if inside and height < inf else _AWAY
+            state.depths[t, at] = -(low[2] + middle[2] + height) if inside and height < inf else _AWAY
+            if state.depths[t, at] == _AWAY:
+                state.holding[t * points * points + at] = False
             state.slopes[t, at, 0], state.slopes[t, at, 1] = slope_x, slope_y
     return True
+
+
+@njit(cache=True)
+def _drag_along(
+    scene: Scene, state: SceneState, t: int, motion_x: float, motion_y: float
+) -> None:  # pragma: no cover - compiled
+    """Move the surface along with a tip, as far as friction can beside what the slopes push aside; note the slip."""
+    flags, along, aside, slip = state.flags[t], state.drag[t], state.aside[t], state.slip[t]
+    before_x, before_y = along[0], along[1]
+    limit = inf if flags[_GRIPPING] != 0.0 else scene.friction * flags[_NORMAL]
+    for i in range(2):
+        along[i] -= aside[i]
+    drag(along, motion_x, motion_y, scene.give[t], 1.0, limit)
+    for i in range(2):
+        along[i] += aside[i]
+    slip[0] = motion_x - scene.give[t] * (along[0] - before_x)
+    slip[1] = motion_y - scene.give[t] * (along[1] - before_y)
+
+
+@njit(cache=True)
+def _push_aside(scene: Scene, state: SceneState, t: int, points: int) -> None:  # pragma: no cover - compiled
+    """Find what the slopes under a tip push aside, so that its work over the slip is what the points are pushed in.
+
+    Slopes at the tick's end do too little: a point that presses now lay less deep under the tip before. The share
+    along the slip is taken from the depths themselves (a discrete gradient: Gonzalez 1996, J Nonlinear Sci 6:449).
+    """
+    aside, slip, middle, spread = state.aside[t], state.slip[t], state.middles[t], state.spreads[t]
+    pads = scene.tick.offsets.shape[1]
+    aside[0] = aside[1] = 0.0
+    way = slip[0] ** 2 + slip[1] ** 2
+    pushed = 0.0
+    for i in range(points):
+        force = state.forces[t * points + i]
+        if force == 0.0:
+            continue
+        aside[0] += force * state.slopes[t, i, 0]
+        aside[1] += force * state.slopes[t, i, 1]
+        if way > _STILL**2:
+            dx, dy = scene.tick.offsets[t, i // pads] - middle[0], scene.tick.offsets[t, i % pads] - middle[1]
+            now = -state.depths[t, i] - state.lowest[t, 2] - middle[2]
+            pushed += force * (underside_or_side(spread, dx + slip[0], dy + slip[1]) - now)
+    if way > _STILL**2:
+        share = (pushed - aside[0] * slip[0] - aside[1] * slip[1]) / way
+        aside[0] += share * slip[0]
+        aside[1] += share * slip[1]
 
 
 @njit(cache=True)
 def _let_go(state: SceneState, t: int, points: int) -> None:  # pragma: no cover - compiled
     state.flags[t, _GRIPPING] = 0.0
     state.flags[t, _NORMAL] = 0.0
-    state.drag[t, 0] = state.drag[t, 1] = 0.0
+    state.drag[t, 0] = state.drag[t, 1] = state.aside[t, 0] = state.aside[t, 1] = 0.0
     for i in range(t * points, (t + 1) * points):
         state.holding[i] = False
         state.touching[i] = False
@@ -318,27 +369,27 @@ def _answer(
     flags, record = state.flags[t], records[t]
     if flags[_IN_HAND] == 0.0:
         return
-    normal = aside_x = aside_y = 0.0
+    normal = 0.0
     pads = scene.tick.offsets.shape[1]
     arm_x = arm_y = 0.0  # of the normal force about the lowest point [N m]
     touched = False
     for i in range(points):
         force = state.forces[t * points + i]
         normal += force
-        aside_x += force * state.slopes[t, i, 0]
-        aside_y += force * state.slopes[t, i, 1]
         arm_x += force * scene.tick.offsets[t, i // pads]
         arm_y += force * scene.tick.offsets[t, i % pads]
         touched = touched or force != 0.0
     flags[_NORMAL] = normal
     held = flags[_GRIPPING] != 0.0
-    pull = sqrt(state.drag[t, 0] ** 2 + state.drag[t, 1] ** 2)
+    _push_aside(scene, state, t, points)
+    along, aside = state.drag[t], state.aside[t]
+    rubbing = sqrt((along[0] - aside[0]) ** 2 + (along[1] - aside[1]) ** 2)
     most = inf if held else scene.friction * max(normal, 0.0)
-    if pull > most:
-        state.drag[t, 0] *= most / pull
-        state.drag[t, 1] *= most / pull
+    if rubbing > most:
+        for i in range(2):
+            along[i] = aside[i] + (along[i] - aside[i]) * most / rubbing
     force, hand, direction = state.vectors[2], state.vectors[3], state.vectors[4]
-    force[0], force[1], force[2] = -state.drag[t, 0] - aside_x, -state.drag[t, 1] - aside_y, normal
+    force[0], force[1], force[2] = -along[0], -along[1], normal
     # Moment about the tip's end: the resultant acts at the lowest point, the normal force a little beside it.
     rx = state.lowest[t, 0] - record[TIP]
     ry = state.lowest[t, 1] - record[TIP + 1]

@@ -217,6 +217,11 @@ class WaveMembrane:
             return self.stack.compliance(k)
         return layered_compliance(self._tissue, k, base_held=self.support.base_held, finest=finest)
 
+    @property
+    def matrices_of_motion(self) -> tuple[FloatArray, FloatArray]:
+        """Mass and stiffness per unit area of each mode, n fastest, each of shape (M N, layers, layers)."""
+        return self._mass, self._stiffness
+
     def modal_energy(self, state: WaveState) -> FloatArray:
         """Return kinetic plus elastic energy of each mode (m, n), all layers together [J], shape (M, N)."""
         (oscillators,) = state.oscillators

@@ -94,7 +94,7 @@ class Trainer:
         self._restarts = 0
         self._restarting: threading.Thread | None = None
         self._ended = threading.Event()
-        self._began = time.monotonic()
+        self._began: float | None = None  # when the device's time began: with the first page
         self._driving: threading.Thread | None = None
         self._shown: tuple[tuple[int, int], Snapshot] | None = None
 
@@ -130,7 +130,9 @@ class Trainer:
         return self._servo
 
     def hello(self) -> Hello:
-        """Return what never changes while the trainer lives."""
+        """Return what never changes while the trainer lives; a device of the trainer's own begins with the first page."""
+        if self._began is None:
+            self._began = time.monotonic()
         return self._hello
 
     def latest(self) -> Snapshot:
@@ -213,7 +215,7 @@ class Trainer:
         """Hand a device's poses on until the end, and its forces back."""
         sequence, over = 0, False
         while not self._ended.wait(_DEVICE_PERIOD):
-            now = time.monotonic() - self._began
+            now = time.monotonic() - self._began if self._began is not None else 0.0
             sequence += 1
             for instrument, pose in enumerate(self._device.poses(now)):
                 self._follow(instrument, pose, sequence)
