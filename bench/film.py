@@ -43,6 +43,10 @@ class Moment:
         """Return how deep the deepest tip is that does something [m], minus infinity where none does."""
         return max((each.depth for each in self.instruments if doing in each.touch), default=-math.inf)
 
+    def height(self, doing: Touch) -> float:
+        """Return how high the highest tip is that does something [m], minus infinity where none does."""
+        return max((each.tip[2] for each in self.instruments if doing in each.touch), default=-math.inf)
+
 
 def film(address: str, cookie: str, seconds: float) -> list[Moment]:
     """Listen to a trainer for some time, or until it ends.
@@ -99,5 +103,5 @@ def choose(moments: Sequence[Moment]) -> dict[str, Moment]:
     if slid:
         found["slide"] = max(slid, key=lambda each: each.depth(Touch.TOUCHING))
     if held:
-        found["lift"] = min(held, key=lambda each: each.depth(Touch.HOLDING))
+        found["lift"] = max(held, key=lambda each: each.height(Touch.HOLDING))
     return found

@@ -2,39 +2,18 @@
 
 import os
 import signal
-import subprocess
-import sys
-from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import urlsplit
 from urllib.request import urlopen
 
 import pytest
 
+from live_process import training
 from trocar.cli import main
 from web.visitor import until
 
 PATIENCE = 240.0  # [s]: the first start compiles, on a machine that does other things
 RECORDING = Path(__file__).parents[2] / "examples" / "press-slide-lift.csv"
-
-
-@contextmanager
-def training(*options):
-    """Start the trainer in a session of its own and yield the process and its address."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "trocar", "train", "--no-browser", *options],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    try:
-        address = process.stdout.readline().strip()
-        assert address.startswith("http"), process.stderr.read()
-        yield process, address
-    finally:
-        process.kill()
-        process.communicate()
 
 
 def children(number):

@@ -1,0 +1,72 @@
+"""`trocar train` as a process of its own, and what a second client sees of it."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from contextlib import contextmanager
+from http.client import HTTPConnection
+from urllib.parse import urlsplit
+
+from websockets.sync.client import connect
+
+from trocar.web.wire import decode_frame
+
+
+@contextmanager
+def training(*options):
+    """Start the trainer in a session of its own and yield the process and its address; it is killed at the end."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "trocar", "train", "--no-browser", *options],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    try:
+        address = process.stdout.readline().strip()
+        assert address.startswith("http"), process.stderr.read()
+        yield process, address
+    finally:
+        process.kill()
+        process.communicate()
+
+
+@contextmanager
+def watching(address):
+    """Look on beside the page: what one client's hands do, every client sees."""
+    parts = urlsplit(address)
+    connection = HTTPConnection(parts.netloc, timeout=10)
+    connection.request("GET", f"{parts.path}?{parts.query}")
+    cookie = connection.getresponse().getheader("set-cookie").partition(";")[0]
+    connection.close()
+    with connect(
+        f"ws://{parts.netloc}/live",
+        origin=f"{parts.scheme}://{parts.netloc}",
+        additional_headers={"Cookie": cookie},
+        compression=None,
+        proxy=None,
+        open_timeout=10,
+        close_timeout=1,
+    ) as stream:
+        yield Watcher(stream)
+
+
+class Watcher:
+    """A plain client of the stream that says nothing but that it has seen a frame."""
+
+    def __init__(self, stream):
+        self._stream = stream
+        self.hello = json.loads(stream.recv(timeout=10))
+        self.notices = []
+
+    def look(self):
+        """Return the newest snapshot; notices that come on the way are kept."""
+        while True:
+            message = self._stream.recv(timeout=30)
+            if isinstance(message, bytes):
+                sequence, snapshot = decode_frame(message)
+                self._stream.send(json.dumps({"type": "ack", "sequence": sequence}))
+                return snapshot
+            self.notices.append(json.loads(message)["text"])
