@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 from trocar.cli.bench_servo import servo
+from trocar.cli.bench_stream import stream
 from trocar.errors import InputError
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ def register(app: typer.Typer) -> None:
     group.command("step", epilog="Example: trocar bench step --diameter-mm 8")(step)
     group.command("cost", epilog="Example: trocar bench cost --quick")(cost)
     group.command("servo", epilog="Example: trocar bench servo --seconds 60 --rounds 5")(servo)
+    group.command("stream", epilog="Example: trocar bench stream --seconds 30")(stream)
     app.add_typer(group, name="bench", epilog="Example: trocar bench step")
 
 
