@@ -20,7 +20,7 @@ ROLLS = [0.0, 0.7, -2.5]
 
 
 def frame(direction, roll):
-    """Rows x, y, z of the tool: z back along the shaft, y as far up as it may, turned by roll about the way to the tip."""
+    """Rows x, y, z of the tool: z back along the shaft, y up as it may, turned by roll about the way to the tip."""
     back = -np.array(direction, dtype=float) / np.linalg.norm(direction)
     up = np.array([0.0, 0.0, 1.0]) if np.hypot(*back[:2]) > 1e-3 else np.array([0.0, 1.0, 0.0])
     y = up - up @ back * back
@@ -85,7 +85,7 @@ def test_the_underside_is_the_lower_root(direction, roll):
             assert height == np.inf
             assert underside_or_side(spread, dx, dy) == pytest.approx(-b / inverse[2, 2], rel=1e-9)
             continue
-        assert underside_or_side(spread, dx, dy) == height
+        assert underside_or_side(spread, dx, dy) == pytest.approx(height, rel=1e-9, abs=1e-14)
         inside += 1
         assert height == pytest.approx((-b - np.sqrt(discriminant)) / inverse[2, 2], rel=1e-9, abs=1e-14)
         step = 1e-8
