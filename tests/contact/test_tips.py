@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from trocar.contact.instrument import TipKind
-from trocar.contact.tips import TIPS, lowest, turn_body, underside
+from trocar.contact.tips import TIPS, lowest, turn_body, underside, underside_or_side
 
 AXES, MIDDLE = np.array([0.6e-3, 1.5e-3, 2.2e-3]), np.array([0.1e-3, -0.4e-3, 2.0e-3])
 TIP = np.array([0.012, -0.003, 0.004])
@@ -20,7 +20,7 @@ ROLLS = [0.0, 0.7, -2.5]
 
 
 def frame(direction, roll):
-    """Rows x, y, z of the tool: z back along the shaft, y as far up as it may, turned by roll about the shaft."""
+    """Rows x, y, z of the tool: z back along the shaft, y up as it may, turned by roll about the way to the tip."""
     back = -np.array(direction, dtype=float) / np.linalg.norm(direction)
     up = np.array([0.0, 0.0, 1.0]) if np.hypot(*back[:2]) > 1e-3 else np.array([0.0, 1.0, 0.0])
     y = up - up @ back * back
@@ -83,7 +83,9 @@ def test_the_underside_is_the_lower_root(direction, roll):
         height, slope_x, slope_y = underside(spread, dx, dy)
         if discriminant <= 0:
             assert height == np.inf
+            assert underside_or_side(spread, dx, dy) == pytest.approx(-b / inverse[2, 2], rel=1e-9)
             continue
+        assert underside_or_side(spread, dx, dy) == pytest.approx(height, rel=1e-9, abs=1e-14)
         inside += 1
         assert height == pytest.approx((-b - np.sqrt(discriminant)) / inverse[2, 2], rel=1e-9, abs=1e-14)
         step = 1e-8

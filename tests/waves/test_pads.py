@@ -6,6 +6,7 @@ import pytest
 from trocar.errors import InputError
 from trocar.model import Press, Profile
 from trocar.waves.membrane import WaveMembrane
+from trocar.waves.near_field import SMOOTH, layered_compliance, near_field
 from trocar.waves.pads import Pads
 from trocar.waves.solid import WaveSolid
 
@@ -14,11 +15,11 @@ PLACES = np.array([[0.03, 0.025], [0.031, 0.025], [0.024, 0.03], [0.012, 0.01]])
 WIDTH = 0.6e-3
 
 
-def as_presses(model, layer):
+def as_presses(model, layer, width=WIDTH):
     """The same pads as presses of a long series."""
     where = np.column_stack([PLACES, np.zeros(len(PLACES))])
     presses = (
-        Press(x=x, y=y, radius=2 * WIDTH, force=1.0, profile=Profile.GAUSSIAN) for x, y in PLACES.tolist()
+        Press(x=x, y=y, radius=2 * width, force=1.0, profile=Profile.GAUSSIAN) for x, y in PLACES.tolist()
     )
     return np.array([-model.displacement(model.static((press,)), where, layer)[:, 2] for press in presses])
 
@@ -39,12 +40,33 @@ def test_short_series_and_near_field_are_the_long_series(skin, support):
         assert sunk == pytest.approx(wanted, rel=3e-3)
 
 
-def test_membranes_have_pads_too(skin):
-    short, long = (WaveMembrane.fitted(skin, size=SIZE, modes=(m, m)) for m in (48, 160))
+def test_sheets_have_pads_too(skin):
+    stack = WaveMembrane.fitted(skin, size=SIZE, modes=(2, 2)).stack
+    short, long = (WaveMembrane(stack, size=SIZE, modes=(m, m)) for m in (48, 160))
     expected = as_presses(long, "epidermis")
     assert Pads(short, PLACES, WIDTH).compliance == pytest.approx(
         expected, rel=2e-3, abs=2e-4 * expected.max()
     )
+
+
+def test_pads_on_fitted_sheets_make_the_layers_own_local_dent(skin):
+    """Sheets answer the window of `SMOOTH`, the layers what is shorter: as the layered solid does."""
+    model = WaveMembrane.fitted(skin, size=SIZE, support="base", modes=(64, 64))
+    window = as_presses(model, "epidermis", width=SMOOTH)
+    field = near_field(
+        lambda k: layered_compliance(skin, k, base_held=True, finest=WIDTH),
+        pad=WIDTH,
+        window=SMOOTH,
+        reach=7 * SMOOTH,
+    )
+    apart = np.linalg.norm(PLACES[:, None] - PLACES[None], axis=2)
+    found = Pads(model, PLACES, WIDTH).compliance
+    # The series ends at exp(-4.5^2/2) of the window or later; rows of the table are interpolated to 1e-4.
+    assert found == pytest.approx(window + field.at(apart)[:, :, 0], rel=2e-3, abs=2e-4 * found.max())
+    solid = Pads(WaveSolid(skin, size=SIZE, support="base", modes=(64, 64)), PLACES, WIDTH).compliance
+    assert found.diagonal() == pytest.approx(solid.diagonal(), rel=0.03)  # what a fit misses of long waves
+    sheets = Pads(WaveMembrane(model.stack, size=SIZE, modes=(64, 64)), PLACES, WIDTH).compliance
+    assert np.abs(sheets / solid - 1).diagonal().max() > 0.05  # and sheets alone of a local dent
 
 
 def test_pads_store_energy_whatever_their_width(skin):

@@ -128,4 +128,5 @@ def underside_or_side(spread: FloatArray, dx: float, dy: float) -> float:  # pra
     tx = (spread[1, 1] * spread[0, 2] - spread[0, 1] * spread[1, 2]) / det
     ty = (spread[0, 0] * spread[1, 2] - spread[0, 1] * spread[0, 2]) / det
     thick2 = spread[2, 2] - tx * spread[0, 2] - ty * spread[1, 2]
-    return float(tx * dx + ty * dy - sqrt(max(thick2, 0.0) * max(1.0 - ax * dx - ay * dy, 0.0)))
+    height: float = tx * dx + ty * dy - sqrt(max(thick2, 0.0) * max(1.0 - ax * dx - ay * dy, 0.0))
+    return height

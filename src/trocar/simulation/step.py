@@ -76,18 +76,21 @@ def advance(
     go_on(scene.tick, state.tick)
     if wanted[0] + wanted[1] != 0.0:
         read_patches(scene.tick, state.tick, state.sunk)
-    pressed = False
+    pressed, well = False, True
     for t in range(tools):
         pressing[t] = 0.0
         for i in range(points):
             at = t * points + i
             below = state.depths[t, i] - state.sunk[t, i] if wanted[t] != 0.0 else _AWAY
             state.below[at] = below
+            well = well and isfinite(below)
             if below > 0.0 or state.holding[at]:
                 pressing[t] = 1.0
         pressed = pressed or pressing[t] != 0.0
-    well = not pressed or _solve(scene, state, pressing)
-    if not pressed:
+    pressed = pressed and well
+    if pressed:
+        well = _solve(scene, state, pressing)
+    else:
         state.forces[:] = 0.0
         state.touching[:] = False
     for t in range(tools):

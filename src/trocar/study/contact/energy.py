@@ -1,8 +1,8 @@
 """Energy of a live scene, and the work of its instruments: what contact may not gain.
 
 Stored are the waves' kinetic and elastic energy, a quadratic form of each mode's blocks; the near fields', p K p/2 of
-each patch; and that of the surface drawn aside by friction, give f^2/2. The work of a tip in a tick is the force held
-on it times the way of its lowest point, and what turning it pushes in. Without damping, stored energy minus work never grows.
+each patch; and that of the surface drawn aside, give f^2/2. The work of a tip in a tick is the force held on it times
+the way of its lowest point, and what turning it pushes in. Without damping, stored energy minus work never grows.
 """
 
 from __future__ import annotations
