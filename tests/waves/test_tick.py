@@ -20,7 +20,7 @@ from trocar.waves.patch import (
 from trocar.waves.solid import WaveSolid
 from trocar.waves.stack import Coupling, Sheet, Stack
 from trocar.waves.state import WaveState
-from trocar.waves.tick import _spectrum, at_rest, make_tick, oscillators_of
+from trocar.waves.tick import FAR, _spectrum, at_rest, make_tick, oscillators_of
 
 DT = 1e-3
 SIZE = (0.06, 0.045)
@@ -169,8 +169,8 @@ def test_far_from_the_sides_points_know_only_each_other():
         for tool in range(2):
             place_patch(tick, state, tool, *place)
             push_each_other(tick, state, tool, tool, out)
-            # `FAR`, 1e-6, for each of two sides and their corner, and the rounding of the continued waves.
-            assert out == pytest.approx(tick.inside[tool], rel=0, abs=5e-6 * out.max())
+            # `FAR` for each of two sides and their corner, and the rounding of the continued waves.
+            assert out == pytest.approx(tick.inside[tool], rel=0, abs=5 * FAR * out.max())
     place_patch(tick, state, 0, 0.3 * margin, 0.0225)
     push_each_other(tick, state, 0, 0, out)
     assert np.abs(out - tick.inside[0]).max() > 1e-3 * out.max()

@@ -130,7 +130,7 @@ class Trainer:
         return self._servo
 
     def hello(self) -> Hello:
-        """Return what never changes while the trainer lives; a device of the trainer's own begins with the first page."""
+        """Return what never changes; a device of the trainer's own begins with the first page that asks."""
         if self._began is None:
             self._began = time.monotonic()
         return self._hello
