@@ -20,15 +20,15 @@ help:  ## list the targets
 	@sed -nE 's/^([a-z]+)( [a-z]+)?:.*## /make \1\t/p' $(MAKEFILE_LIST) | expand -t 12
 
 .PHONY: run
-run: .venv/ready  ## set up, then open the trainer in the browser; Ctrl-C ends it
+run: .venv/ready .venv/compiled  ## set up, then open the trainer in the browser; Ctrl-C ends it
 	@.venv/bin/trocar train
 
 .PHONY: study
-study: .venv/ready  ## set up, then run the validation study into study/
+study: .venv/ready .venv/compiled  ## set up, then run the validation study into study/
 	@.venv/bin/trocar study --out study
 
 .PHONY: test
-test: .venv/ready  ## set up, then run every test, the client's too (WORKERS=2)
+test: .venv/ready .venv/compiled  ## set up, then run every test, the client's too (WORKERS=2)
 	@.venv/bin/python hatch_build.py check
 	.venv/bin/python -m pytest -q -n $(WORKERS)
 
@@ -107,4 +107,12 @@ CLIENT := $(shell find client -name node_modules -prune -o -type f -print)
 
 .venv/ready: pyproject.toml hatch_build.py $(CLIENT) .venv/dependencies
 	@$(PIP) install --no-deps --no-build-isolation --no-index --editable .
+	touch $@
+
+# Compiled code holds copies of what it calls, and numba looks only at the file of the caller: after an edit all of it is
+# compiled again.
+SOURCES := $(shell find src -name '*.py')
+
+.venv/compiled: $(SOURCES) .venv/ready
+	@find src -name '*.nb[ci]' -delete
 	touch $@
