@@ -68,8 +68,9 @@ def press(
             touching[:] = False
             return False
         wrong, last = 0, -1
-        for i in range(pads):
-            if _is_wrong(compliance, below, holding, touching, forces, i, gap_slack):
+        for i in range(pads):  # order is free again: it keeps which pads to exchange
+            order[i] = _is_wrong(compliance, below, holding, touching, forces, i, gap_slack)
+            if order[i]:
                 wrong, last = wrong + 1, i
         if wrong == 0:
             return True
@@ -78,8 +79,6 @@ def press(
         else:
             patience -= 1
         if patience >= 0:
-            for i in range(pads):  # order is free again: it keeps which pads to exchange
-                order[i] = _is_wrong(compliance, below, holding, touching, forces, i, gap_slack)
             for i in range(pads):
                 if order[i]:
                     touching[i] = not touching[i]
@@ -132,7 +131,11 @@ def _forces_of(
     factor: FloatArray,
     order: IntArray,
 ) -> bool:  # pragma: no cover - compiled
-    """Solve g = 0 for the pads that touch or hold, p = 0 for the others, by Cholesky."""
+    """Solve g = 0 for the pads that touch or hold, p = 0 for the others, by Cholesky.
+
+    W = U^T U, row by row of U: each takes its share off all that is left below, along rows, which fills vector
+    registers without reordering a sum. U lies above the diagonal of `factor`, what is left of W below it.
+    """
     count = 0
     for i in range(len(below)):
         forces[i] = 0.0
@@ -140,22 +143,28 @@ def _forces_of(
             order[count] = i
             count += 1
     for r in range(count):
+        row, given = factor[r], compliance[order[r]]
         for c in range(r + 1):
-            total = compliance[order[r], order[c]] - _dot(factor[r], factor[c], c)
-            if r > c:
-                factor[r, c] = total / factor[c, c]
-            elif total > 0.0:
-                factor[r, r] = sqrt(total)
-            else:
-                return False
-    for r in range(count):
-        total = below[order[r]]
-        for k in range(r):
-            total -= factor[r, k] * forces[order[k]]
-        forces[order[r]] = total / factor[r, r]
+            row[c] = given[order[c]]
+        forces[order[r]] = below[order[r]]
+    for k in range(count):
+        done = factor[k]
+        if not done[k] > 0.0:
+            return False
+        done[k] = sqrt(done[k])
+        share = 1.0 / done[k]
+        solved = forces[order[k]] * share
+        forces[order[k]] = solved
+        for r in range(k + 1, count):
+            done[r] = factor[r, k] * share
+        for r in range(k + 1, count):
+            row, times = factor[r], done[r]
+            for c in range(k + 1, r + 1):
+                row[c] -= times * done[c]
+            forces[order[r]] -= times * solved
     for r in range(count - 1, -1, -1):
-        total = forces[order[r]]
+        row, total = factor[r], forces[order[r]]
         for k in range(r + 1, count):
-            total -= factor[k, r] * forces[order[k]]
-        forces[order[r]] = total / factor[r, r]
+            total -= row[k] * forces[order[k]]
+        forces[order[r]] = total / row[r]
     return True
