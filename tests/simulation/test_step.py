@@ -29,7 +29,9 @@ from trocar.simulation import (
     played,
     poses_along,
 )
-from trocar.study.contact.scenes import SIZE, upright
+from trocar.study.contact.scenes import SIZE, setting, upright
+from trocar.study.cost.tick_cost import two_circles, two_probes
+from trocar.tissues.catalogue import tissue
 from trocar.waves.membrane import WaveMembrane
 from trocar.waves.solid import WaveSolid
 
@@ -238,6 +240,19 @@ def test_without_friction_a_still_tip_feels_no_drag(straight):
     assert records[DRAG : DRAG + 2] == pytest.approx(
         [0, 0], abs=1e-6 * records[NORMAL]
     )  # waves that still ring
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+def test_a_slide_over_very_soft_tissue_is_quiet(friction):
+    """Uterus gives way sideways by as much as a 12 mm tip's radius: if it followed the slopes at once it would ring."""
+    soft = setting(tissue("uterus"))
+    pair = two_probes(SIZE, 6e-3)
+    scene = make_scene(soft.model, soft.tissue, pair, friction=friction)
+    forces = played(scene, poses_along(pair, two_circles(SIZE, 6e-3, 0.03)))[150:, 1, FORCE : FORCE + 3]
+    normal = forces[:, 2].mean()
+    assert scene.give[1] * normal > 6e-3
+    # Second differences of a smooth circle of 400 ticks are (2 pi/400)^2, 2.5e-4, of its amplitude.
+    assert np.abs(np.diff(forces, 2, axis=0)).max() < 3e-4 * normal
 
 
 def test_a_solid_can_be_the_tissue_and_agrees_with_its_membrane(straight):

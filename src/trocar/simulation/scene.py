@@ -84,7 +84,7 @@ class SceneState(NamedTuple):
         touching, holding: which of them press, and which hold the tissue, shape (2 P P,).
         drag: of both tips along the surface, x and y: friction and what the slopes under them push aside [N],
             shape (2, 2).
-        aside: the latter alone [N], shape (2, 2).
+        aside: the latter alone [N], shape (2, 2); leaning: how much of it the surface has followed.
         slip: of both tips over the surface in this tick, x and y [m], shape (2, 2).
         lowest: lowest points of both tips [m], shape (2, 3); the next three are also of the last tick.
         flags: of both instruments: in the hand, free to touch, gripping, jaw, normal force [N]; shape (2, 5).
@@ -105,6 +105,7 @@ class SceneState(NamedTuple):
     holding: np.ndarray
     drag: FloatArray
     aside: FloatArray
+    leaning: FloatArray
     slip: FloatArray
     lowest: FloatArray
     flags: FloatArray
@@ -201,6 +202,7 @@ def at_rest(scene: Scene) -> SceneState:
         holding=np.zeros(points, dtype=np.bool_),
         drag=np.zeros((tools, 2)),
         aside=np.zeros((tools, 2)),
+        leaning=np.zeros((tools, 2)),
         slip=np.zeros((tools, 2)),
         lowest=np.zeros((tools, 3)),
         flags=np.zeros((tools, 5)),

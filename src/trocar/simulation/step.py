@@ -45,6 +45,9 @@ _IN_HAND, _FREE, _GRIPPING, _JAW, _NORMAL = range(5)
 _TURNS = 100  # of two patches that push each other in, until they agree; seen: 3 to 12
 _AGREED = 1e-12  # of the deepest point
 _ABOVE = 0.02  # [m] a tip higher above the rest surface than this is not looked at
+# Of what slopes push aside, the surface follows this share in a tick. All at once would ring on tissue that gives way
+# by more than a tip's radius under the normal force laid on its side; so it may give way nineteen times that.
+_FOLLOW = 0.1
 _STILL = 1e-9  # [m] a slip below this is none
 _AWAY = -1.0  # [m] depth of a point that lies beside the tip or the block
 
@@ -103,6 +106,7 @@ def advance(
         state.forces[:] = 0.0
         state.drag[:] = 0.0
         state.aside[:] = 0.0
+        state.leaning[:] = 0.0
         for t in range(tools):
             records[t, FORCE : HANDLE_FORCE + 3] = 0.0
             records[t, DRAG : DRAG + 2] = 0.0
@@ -128,6 +132,7 @@ def come_to_rest(scene: Scene, state: SceneState) -> None:  # pragma: no cover -
     state.forces[:] = 0.0
     state.drag[:] = 0.0
     state.aside[:] = 0.0
+    state.leaning[:] = 0.0
     state.touching[:] = False
     state.holding[:] = False
     for t in range(len(state.flags)):
@@ -203,14 +208,15 @@ def _drag_along(
     scene: Scene, state: SceneState, t: int, motion_x: float, motion_y: float
 ) -> None:  # pragma: no cover - compiled
     """Move the surface along with a tip, as far as friction can beside what the slopes push aside; note the slip."""
-    flags, along, aside, slip = state.flags[t], state.drag[t], state.aside[t], state.slip[t]
+    flags, along, leaning, slip = state.flags[t], state.drag[t], state.leaning[t], state.slip[t]
     before_x, before_y = along[0], along[1]
     limit = inf if flags[_GRIPPING] != 0.0 else scene.friction * flags[_NORMAL]
     for i in range(2):
-        along[i] -= aside[i]
+        leaning[i] += _FOLLOW * (state.aside[t, i] - leaning[i])
+        along[i] -= leaning[i]
     drag(along, motion_x, motion_y, scene.give[t], 1.0, limit)
     for i in range(2):
-        along[i] += aside[i]
+        along[i] += leaning[i]
     slip[0] = motion_x - scene.give[t] * (along[0] - before_x)
     slip[1] = motion_y - scene.give[t] * (along[1] - before_y)
 
@@ -248,6 +254,7 @@ def _let_go(state: SceneState, t: int, points: int) -> None:  # pragma: no cover
     state.flags[t, _GRIPPING] = 0.0
     state.flags[t, _NORMAL] = 0.0
     state.drag[t, 0] = state.drag[t, 1] = state.aside[t, 0] = state.aside[t, 1] = 0.0
+    state.leaning[t, 0] = state.leaning[t, 1] = 0.0
     for i in range(t * points, (t + 1) * points):
         state.holding[i] = False
         state.touching[i] = False
@@ -385,14 +392,14 @@ def _answer(
     flags[_NORMAL] = normal
     held = flags[_GRIPPING] != 0.0
     _push_aside(scene, state, t, points)
-    along, aside = state.drag[t], state.aside[t]
-    rubbing = sqrt((along[0] - aside[0]) ** 2 + (along[1] - aside[1]) ** 2)
+    along, aside, leaning = state.drag[t], state.aside[t], state.leaning[t]
+    rubbing = sqrt((along[0] - leaning[0]) ** 2 + (along[1] - leaning[1]) ** 2)
     most = inf if held else scene.friction * max(normal, 0.0)
     if rubbing > most:
         for i in range(2):
-            along[i] = aside[i] + (along[i] - aside[i]) * most / rubbing
+            along[i] = leaning[i] + (along[i] - leaning[i]) * most / rubbing
     force, hand, direction = state.vectors[2], state.vectors[3], state.vectors[4]
-    force[0], force[1], force[2] = -along[0], -along[1], normal
+    force[0], force[1], force[2] = leaning[0] - along[0] - aside[0], leaning[1] - along[1] - aside[1], normal
     # Moment about the tip's end: the resultant acts at the lowest point, the normal force a little beside it.
     rx = state.lowest[t, 0] - record[TIP]
     ry = state.lowest[t, 1] - record[TIP + 1]

@@ -14,7 +14,7 @@ from trocar.waves.tick import make_tick
 def test_the_cost_of_a_tick_is_told_with_its_error(monkeypatch):
     monkeypatch.setattr(tick_cost_module, "_RELEASED_TICKS", 400)
     monkeypatch.setattr(tick_cost_module, "_SINGLE_TICKS", 100)
-    cost = tick_cost(tissue("uterus"), size=(0.06, 0.06), radius=0.006, tolerance=1e-3)
+    cost = tick_cost(tissue("uterus"), size=(0.06, 0.06), radius=0.004, tolerance=1e-3)
     assert 0 < cost.error < 1e-3  # what the modes were chosen for
     assert cost.pressing > 2  # both tips touch
     assert cost.oscillators == cost.layers * cost.modes

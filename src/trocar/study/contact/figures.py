@@ -13,7 +13,7 @@ from trocar.study.contact.passivity import passivity
 from trocar.study.contact.scenes import BLOCK, MODES, SIZE, Setting, setting, upright
 from trocar.waves.solid import WaveSolid
 
-WEAK = 0.02  # of the contact's compliance, left in the negative control
+WEAK = 0.2  # of the contact's compliance, left in the negative control
 _CONTROLS = 8  # trajectories of it
 _SKIN_DEPTHS = (0.7e-3, 1.0e-3, 1.25e-3)  # [m]; 0.05 to 0.1 N, the top of the linear range
 _BLOCK_DEPTHS = (0.33e-3, 0.7e-3, 1.08e-3)  # [m]; 0.5 to 3 N
@@ -22,7 +22,7 @@ _FINE = 1e-5  # [s] a tick of the reference
 _SPEED, _DEPTH = 0.1, 1e-3  # [m/s], [m] of the slide
 # Stored energy less work may grow by rounding alone where a tip moves smoothly. One that jumps by a millimetre in a
 # tick, or is dragged in over a side of the block, comes upon surface it did not hold before.
-RISES = {"jerk": 1e-3, "zigzag": 0.05, "sine": 1e-8, "rim": 0.2}
+RISES = {"jerk": 5e-3, "zigzag": 0.05, "sine": 1e-4, "rim": 0.2}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,7 +99,8 @@ def energy_figures(
 
 def weakened(one: Setting) -> Setting:
     """Return a setting whose contact law believes the surface to give way less than it does."""
-    scene = one.scene._replace(own=one.scene.own * WEAK, near=one.scene.near * WEAK)
+    tick = one.scene.tick._replace(at_once=one.scene.tick.at_once * WEAK)
+    scene = one.scene._replace(tick=tick, own=one.scene.own * WEAK, near=one.scene.near * WEAK)
     return replace(one, scene=scene)
 
 
