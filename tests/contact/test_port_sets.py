@@ -1,5 +1,7 @@
 """Port sets by name and by file: what works, and what each mistake is answered with."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -91,3 +93,9 @@ def test_no_such_set_or_file(tmp_path):
         instruments_through(str(tmp_path / "none.toml"), SIZE)
     with pytest.raises(InputError, match="expected a readable file"):
         instruments_through(f"{tmp_path}/", SIZE)
+
+
+def test_the_example_file_is_one():
+    example = Path(__file__).parents[2] / "examples" / "ports" / "needle-holder.toml"
+    left, right = instruments_through(str(example), SIZE)
+    assert (left.tip, right.tip) == (TipKind.GRASPER, TipKind.NEEDLE_HOLDER)

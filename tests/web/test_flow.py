@@ -38,6 +38,7 @@ def test_the_server_speaks_first_and_says_what_there_is(guest):
             "linear_force_n",
             "rate_hz",
             "tasks",
+            "steered_by",
         }
     assert json.loads(guest.get_inside("/api/hello")["body"]) == hello
 
