@@ -1,5 +1,6 @@
 """A program that starts a servo, prints its process number, and beats until it is killed or interrupted."""
 
+import signal
 import sys
 import time
 
@@ -8,6 +9,9 @@ from trocar.realtime.servo import Servo
 
 
 def main():
+    signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # ignored where a shell starts it in the background
     with Servo(toy_scene(), at_rest(), physics=TOY) as servo:
         sys.stdout.write(f"{servo.process_id}\n")
         sys.stdout.flush()

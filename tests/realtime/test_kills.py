@@ -90,7 +90,7 @@ def test_a_killed_parent_takes_its_servo_along():
 def test_a_signal_to_the_whole_group_leaves_nothing(number):
     with parent() as (process, servo):
         os.killpg(process.pid, number)
-        _, errors = process.communicate(timeout=300)
+        _, errors = process.communicate(timeout=120)
         assert until(lambda: not members(process.pid), within=30)
         assert not running(servo)
         assert "trocar/realtime/process.py" not in errors  # the servo was not interrupted itself
