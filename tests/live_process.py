@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import queue
 import subprocess
 import sys
-from contextlib import contextmanager
+import threading
+from contextlib import contextmanager, suppress
 from http.client import HTTPConnection
 from urllib.parse import urlsplit
 
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from trocar.web.wire import decode_frame
@@ -50,23 +53,40 @@ def watching(address):
         open_timeout=10,
         close_timeout=1,
     ) as stream:
-        yield Watcher(stream)
+        watcher = Watcher(stream)
+        try:
+            yield watcher
+        finally:
+            stream.close()
+            watcher.reading.join(30)
 
 
 class Watcher:
-    """A plain client of the stream that says nothing but that it has seen a frame."""
+    """A plain client of the stream: takes every frame from a thread of its own, so that it is never idle."""
 
     def __init__(self, stream):
         self._stream = stream
-        self.hello = json.loads(stream.recv(timeout=10))
+        self._newest = queue.Queue(1)
+        self.hello = json.loads(stream.recv(timeout=30))
         self.notices = []
+        self.reading = threading.Thread(target=self._read, daemon=True)
+        self.reading.start()
 
     def look(self):
-        """Return the newest snapshot; notices that come on the way are kept."""
-        while True:
-            message = self._stream.recv(timeout=30)
-            if isinstance(message, bytes):
+        """Return the next snapshot that comes; notices that come on the way are kept."""
+        with suppress(queue.Empty):
+            self._newest.get_nowait()  # an older one
+        return self._newest.get(timeout=60)
+
+    def _read(self):
+        with suppress(ConnectionClosed):
+            while True:
+                message = self._stream.recv()
+                if isinstance(message, str):
+                    self.notices.append(json.loads(message)["text"])
+                    continue
                 sequence, snapshot = decode_frame(message)
                 self._stream.send(json.dumps({"type": "ack", "sequence": sequence}))
-                return snapshot
-            self.notices.append(json.loads(message)["text"])
+                with suppress(queue.Empty):
+                    self._newest.get_nowait()
+                self._newest.put(snapshot)

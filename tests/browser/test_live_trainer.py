@@ -9,9 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from playwright.sync_api import sync_playwright
 
-from browser.chromium import required
 from browser.open_page import MODULES
 from live_process import training, watching
 from trocar.contact.instrument import default_instruments
@@ -32,17 +30,6 @@ HEADSET = """
   xrDevice.controllers.left.position.set(-0.15, 1.45, -0.3);
   xrDevice.controllers.right.position.set(0.15, 1.45, -0.3);
 """
-
-
-@pytest.fixture(scope="module")
-def browser():
-    program = required()
-    with sync_playwright() as playwright:
-        launched = playwright.chromium.launch(
-            executable_path=program, args=["--no-sandbox", "--disable-dev-shm-usage"]
-        )
-        yield launched
-        launched.close()
 
 
 @pytest.fixture(scope="module")
