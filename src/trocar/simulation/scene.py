@@ -86,6 +86,7 @@ class SceneState(NamedTuple):
             shape (2, 2).
         aside: the latter alone [N], shape (2, 2); leaning: how much of it the surface has followed.
         slip: of both tips over the surface in this tick, x and y [m], shape (2, 2).
+        sliding: the slip's share of their motion across in this tick, 0 (all sticks) to 1, shape (2,).
         lowest: lowest points of both tips [m], shape (2, 3); the next three are also of the last tick.
         flags: of both instruments: in the hand, free to touch, gripping, jaw, normal force [N]; shape (2, 5).
         depths: of the tips' undersides below the rest surface at every point [m], shape (2, P P).
@@ -107,6 +108,7 @@ class SceneState(NamedTuple):
     aside: FloatArray
     leaning: FloatArray
     slip: FloatArray
+    sliding: FloatArray
     lowest: FloatArray
     flags: FloatArray
     depths: FloatArray
@@ -204,6 +206,7 @@ def at_rest(scene: Scene) -> SceneState:
         aside=np.zeros((tools, 2)),
         leaning=np.zeros((tools, 2)),
         slip=np.zeros((tools, 2)),
+        sliding=np.zeros(tools),
         lowest=np.zeros((tools, 3)),
         flags=np.zeros((tools, 5)),
         depths=np.zeros((tools, each)),

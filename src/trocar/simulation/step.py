@@ -217,6 +217,9 @@ def _drag_along(
         along[i] += leaning[i]
     slip[0] = motion_x - scene.give[t] * (along[0] - before_x)
     slip[1] = motion_y - scene.give[t] * (along[1] - before_y)
+    way = motion_x**2 + motion_y**2
+    share = (slip[0] * motion_x + slip[1] * motion_y) / way if way > _STILL**2 else 0.0
+    state.sliding[t] = min(max(share, 0.0), 1.0)
 
 
 @njit(cache=True)
@@ -307,7 +310,11 @@ def _answer(
         for i in range(2):
             along[i] = leaning[i] + (along[i] - leaning[i]) * most / rubbing
     force, hand, direction = state.vectors[2], state.vectors[3], state.vectors[4]
-    force[0], force[1], force[2] = leaning[0] - along[0] - aside[0], leaning[1] - along[1] - aside[1], normal
+    # The spring along the surface, and what slopes push aside as far as the tip slides: one that sticks works on the
+    # spring alone.
+    for i in range(2):
+        force[i] = -along[i] - state.sliding[t] * (aside[i] - leaning[i])
+    force[2] = normal
     # Moment about the tip's end: the resultant acts at the lowest point, the normal force a little beside it.
     rx = state.lowest[t, 0] - record[TIP]
     ry = state.lowest[t, 1] - record[TIP + 1]
