@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import shutil
 import subprocess
 import sys
 import threading
@@ -22,8 +21,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import urlsplit
 
+from browsing import chromium
 from film import Moment, choose, film
-from playwright.sync_api import BrowserContext, Page, WebSocketRoute, sync_playwright
+from playwright.sync_api import BrowserContext, Page, WebSocketRoute
 
 ROOT = Path(__file__).parents[1]
 RECORDING = ROOT / "examples" / "press-slide-lift.csv"
@@ -240,20 +240,12 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("--oblique-ports", default="oblique", metavar="NAME", help="the other ports' name")
     parser.add_argument("--out", type=Path, default=OUT)
     arguments = parser.parse_args(words)
-    program = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-    if program is None:
-        print("shots: Chromium is not installed (Debian: apt install chromium)", file=sys.stderr)
-        return 1
-    with sync_playwright() as playwright:
-        flags = ["--no-sandbox", "--disable-dev-shm-usage"]
-        browser = playwright.chromium.launch(executable_path=program, args=flags)
-        try:
+    try:
+        with chromium() as browser:
             take(browser.new_context(viewport=WINDOW), arguments)
-        except ShotError as error:
-            print(f"shots: {error}", file=sys.stderr)
-            return 1
-        finally:
-            browser.close()
+    except (FileNotFoundError, ShotError) as error:
+        print(f"shots: {error}", file=sys.stderr)
+        return 1
     return 0
 
 

@@ -106,7 +106,9 @@ def test_a_press_comes_back_as_a_dent_a_force_and_its_number(trainer, hands):
     assert Status.ALIVE in before.status
     right.go(0.042, 0.03, -0.0005)
     until(lambda: trainer.latest().pose_sequence[RIGHT] == right.sequence, PATIENCE)
-    until(lambda: trainer.latest().heights.min() < -0.4e-3, PATIENCE)  # a servo that lags is still on its way there
+    until(
+        lambda: trainer.latest().heights.min() < -0.4e-3, PATIENCE
+    )  # a servo that lags is still on its way there
     state = trainer.latest()
     assert state.instruments[RIGHT].force[2] > 0.03
     assert state.instruments[RIGHT].touch == Touch.PRESENT | Touch.TOUCHING

@@ -4,7 +4,6 @@ import http.client
 import json
 import logging
 import socket
-import threading
 import time
 from contextlib import contextmanager
 from urllib.parse import urlsplit
@@ -13,7 +12,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from trocar.web.serve import serve
+from trocar.web.serve import serving
 
 
 class Visitor:
@@ -124,37 +123,18 @@ def until(holds, timeout=5.0):
 
 @contextmanager
 def served(source, **options):
-    """Serve a source in a thread, yield what `on_ready` was given, stop it and see that nothing went wrong."""
-    ready, found, failures, records = threading.Event(), [], [], []
+    """Serve a source in a thread, yield what it is served as, stop it and see that nothing went wrong."""
+    records = []
     listening = logging.Handler(logging.WARNING)
     listening.emit = records.append
     loggers = [logging.getLogger(name) for name in ("asyncio", "trocar", "uvicorn.error")]
     for logger in loggers:
         logger.addHandler(listening)
-
-    def run():
-        try:
-            serve(source, on_ready=lambda made: (found.append(made), ready.set()), **options)
-        except BaseException as error:  # noqa: BLE001 - shown by the test that waits
-            failures.append(error)
-        finally:
-            ready.set()
-
-    thread = threading.Thread(target=run)
-    thread.start()
     try:
-        assert ready.wait(10)
-        if failures:
-            raise failures[0]
-        yield found[0]
+        with serving(source, **options) as made:
+            yield made
     finally:
-        if found:
-            found[0].stop()
-        thread.join(10)
-        assert not thread.is_alive()
         for logger in loggers:
             logger.removeHandler(listening)
-    if failures:
-        raise failures[0]
     if records:
         pytest.fail("the server logged:\n" + "\n".join(map(logging.Formatter().format, records)))

@@ -43,6 +43,11 @@ def servo(
     if as_json:
         typer.echo(json.dumps(found.as_dict(), indent=2, allow_nan=False))
         return
+    report(found)
+
+
+def report(found: ServoBench) -> None:
+    """Print a table and what follows from it."""
     console = Console(highlight=False)
     console.print(_table(found))
     console.print(_sentences(found))
@@ -81,7 +86,11 @@ def _table(found: ServoBench) -> Table:
 
 def _sentences(found: ServoBench) -> str:
     scheduled = all(one.scheduled for one in found.rounds)
-    sentence = "Real-time class granted." if scheduled else "No real-time class: other programs delay ticks."
+    sentence = (
+        f"A tick's work by itself: median {found.work_p50_us:.1f} us, 99.9 % {found.work_p999_us:.1f} us, "
+        f"most {found.work_max_us:.1f} us. "
+    )
+    sentence += "Real-time class granted." if scheduled else "No real-time class: other programs delay ticks."
     if found.servo is None or found.empty is None:
         return sentence
     points = found.servo.missed_percent - found.empty.missed_percent

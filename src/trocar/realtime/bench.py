@@ -2,6 +2,9 @@
 
 Both run in processes of their own, set up alike, in turns: an empty loop, the servo, an empty loop, and so on to an
 empty one at the end. What the machine does to both is in both; only rounds of one run are compared.
+
+How long a tick's own work takes is told apart from what interrupts it: the same motion is played several times without
+a pause, and each tick counts with its quickest time.
 """
 
 from __future__ import annotations
@@ -15,20 +18,24 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from numba import njit
 
 from trocar.devices.device import Poses
 from trocar.errors import InputError, ServoError
+from trocar.model import FloatArray
+from trocar.realtime.clock import now
 from trocar.realtime.empty_loop import run_empty
-from trocar.realtime.percentiles import BINS, DURATION, LATENESS, quantile
-from trocar.realtime.physics import Physics
+from trocar.realtime.percentiles import BINS, DURATION, LATENESS, IntArray, quantile
+from trocar.realtime.physics import Physics, live
 from trocar.realtime.servo import Servo, ServoFlag
-from trocar.simulation import TOUCH, TOUCH_TOUCHING
+from trocar.simulation import POSE, RECORD, TOUCH, TOUCH_TOUCHING
 
 Motion = Callable[[float], Poses]
 """Both poses at a time [s]."""
 
 POSE_RATE = 90.0  # [Hz] at which the hands move, as from a browser
 SETTLE = 1.0  # [s] of a servo's round that is not counted: hands come down, caches fill
+WORK_TICKS, REPEATS = 3000, 5  # of the work by itself
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,12 +75,16 @@ class ServoBench:
         processor: its name.
         rounds: in the order in which they ran.
         servo, empty: all rounds of a kind as one; None where there was none.
+        work_p50_us, work_p999_us, work_max_us: of ticks by themselves, each the quickest of its repeats.
     """
 
     processor: str
     rounds: tuple[Round, ...]
     servo: Round | None
     empty: Round | None
+    work_p50_us: float
+    work_p999_us: float
+    work_max_us: float
 
     def as_dict(self) -> dict[str, Any]:
         """Return it as JSON takes it."""
@@ -101,6 +112,7 @@ def alternate(
     only_empty: bool = False,
     physics: Physics | None = None,
     progress: Callable[[int, int], None] | None = None,
+    attend: Callable[[Servo | None], None] = lambda servo: None,
 ) -> ServoBench:
     """Run empty loop and servo in turns.
 
@@ -113,6 +125,7 @@ def alternate(
         only_empty: leave the servo out.
         physics: for `Servo`.
         progress: called with rounds done and rounds in all.
+        attend: given each servo as it runs, and None when it is about to end.
 
     Raises:
         InputError: too short, too long or no rounds.
@@ -131,24 +144,73 @@ def alternate(
             empty = run_empty(round(1e9 * scene.dt), seconds)
             found.append(_Measured("empty", empty.totals, empty.missed, 0.0, empty.scheduled))
         else:
-            found.append(_servo_round(scene, state, motion, seconds, physics))
+            found.append(_servo_round(scene, state, motion, seconds, physics, attend))
+    work = work_alone(scene, state, motion, physics=physics)
     of = {kind: [one for one in found if one.loop == kind] for kind in ("servo", "empty")}
     return ServoBench(
         processor=_processor(),
         rounds=tuple(_round(one) for one in found),
         servo=_together(of["servo"]),
         empty=_together(of["empty"]),
+        work_p50_us=float(np.median(work)),
+        work_p999_us=float(np.percentile(work, 99.9)),
+        work_max_us=float(work.max()),
     )
 
 
+def work_alone(
+    scene: Any, state: Any, motion: Motion, *, physics: Physics | None = None
+) -> npt.NDArray[np.float64]:
+    """Return how long the ticks of a motion take by themselves [us], each the quickest of `REPEATS`.
+
+    Args:
+        scene: the physics' parameters.
+        state: put to rest, and overwritten.
+        motion: of the hands.
+        physics: the live one if not given.
+    """
+    physics = physics or live()
+    first = round(SETTLE / scene.dt)
+    ticks = first + WORK_TICKS
+    poses = np.zeros((ticks, 2, POSE))
+    for tick in range(ticks):
+        for hand, pose in enumerate(motion(tick * scene.dt)):
+            poses[tick, hand] = (pose.present, *pose.handle, pose.roll, pose.jaw)
+    records = np.zeros((2, RECORD))
+    quickest = np.full(ticks, np.iinfo(np.int64).max)
+    took = np.zeros(ticks, dtype=np.int64)
+    for _ in range(REPEATS):
+        physics.come_to_rest(scene, state)
+        _play(physics.advance, scene, state, poses, records, took)
+        np.minimum(quickest, took, out=quickest)
+    return 1e-3 * quickest[first:]
+
+
+@njit(nogil=True)
+def _play(
+    advance: Any, scene: Any, state: Any, poses: FloatArray, records: FloatArray, took: IntArray
+) -> None:  # pragma: no cover - compiled
+    for tick in range(len(poses)):
+        began = now()
+        advance(scene, state, poses[tick], records)
+        took[tick] = now() - began
+
+
 def _servo_round(
-    scene: Any, state: Any, motion: Motion, seconds: float, physics: Physics | None
+    scene: Any,
+    state: Any,
+    motion: Motion,
+    seconds: float,
+    physics: Physics | None,
+    attend: Callable[[Servo | None], None],
 ) -> _Measured:
     with Servo(scene, state, physics=physics) as servo:
+        attend(servo)
         _move(servo, motion, 0.0, SETTLE)
         before, first = servo.histograms(), servo.latest()
         touches = _move(servo, motion, SETTLE, SETTLE + seconds)
         after, last = servo.histograms(), servo.latest()
+        attend(None)
         if not servo.alive:
             raise ServoError(f"the servo {servo.exit_reason} while it was measured")
     share = float(np.mean(touches, axis=0).min())

@@ -18,7 +18,6 @@ from __future__ import annotations
 import asyncio
 import json
 import multiprocessing
-import threading
 import time
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -35,7 +34,7 @@ from websockets.exceptions import ConnectionClosedOK
 from trocar.errors import TrocarError
 from trocar.web.conversation import StreamLimits
 from trocar.web.messages import Hello, Notice
-from trocar.web.serve import Served, serve
+from trocar.web.serve import serving
 from trocar.web.source import LEFT, LiveSource, Pose, Snapshot
 from trocar.web.wire import HEADER, encode_pose
 
@@ -121,32 +120,19 @@ def stream_latency(source: LiveSource, *, seconds: float = 10.0, frame_rate: flo
     pose = Pose(
         instrument=LEFT, sequence=0, present=True, handle=hello.instruments[LEFT].handle_m, roll=0.0, jaw=0.0
     )
-    found: list[tuple[dict[int, float], dict[int, float]]] = []
-    failures: list[Exception] = []
-
-    def visit(served: Served) -> None:
+    interval = 1.0 / (_PHASE_DRIFT * frame_rate)
+    with (
+        serving(timed, limits=StreamLimits(frame_rate=frame_rate)) as served,
+        ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool,
+    ):
+        talk = pool.submit(
+            _client, served.address, served.origin, encode_pose(pose), seconds + _WARM_UP, interval
+        )
         try:
-            with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
-                interval = 1.0 / (_PHASE_DRIFT * frame_rate)
-                arguments = (served.address, served.origin, encode_pose(pose), seconds + _WARM_UP, interval)
-                found.append(pool.submit(_client, *arguments).result())
-        except Exception as error:  # noqa: BLE001 - told to the caller, in the other thread
-            failures.append(error)
-        finally:
-            served.stop()
-
-    visitors: list[threading.Thread] = []
-
-    def start(served: Served) -> None:
-        visitors.append(threading.Thread(target=visit, args=(served,)))
-        visitors[0].start()
-
-    serve(timed, on_ready=start, limits=StreamLimits(frame_rate=frame_rate))
-    for visitor in visitors:
-        visitor.join()
-    if failures:
-        raise TrocarError(f"the client that measures failed: {failures[0]}") from failures[0]
-    return _evaluated(timed, *found[0], frame_period=1.0 / frame_rate)
+            sent, received = talk.result()
+        except Exception as error:
+            raise TrocarError(f"the client that measures failed: {error}") from error
+    return _evaluated(timed, sent, received, frame_period=1.0 / frame_rate)
 
 
 def _evaluated(

@@ -17,6 +17,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from ipaddress import ip_address
 from pathlib import Path
+from typing import Any
 
 import uvicorn
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
@@ -197,6 +198,42 @@ class _Server(uvicorn.Server):
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         await self._live.stop()  # clients hear why before their connections are shut
         await super().shutdown(sockets)
+
+
+@contextmanager
+def serving(source: LiveSource, **options: Any) -> Iterator[Served]:
+    """Serve in a thread of its own for as long as the block runs; options as for `serve`.
+
+    What ends the server early is raised at the end of the block, or instead of it.
+    """
+    found: list[Served] = []
+    failures: list[BaseException] = []
+    ready = threading.Event()
+
+    def take(served: Served) -> None:
+        found.append(served)
+        ready.set()
+
+    def run() -> None:
+        try:
+            serve(source, on_ready=take, **options)
+        except BaseException as error:  # noqa: BLE001 - raised in the other thread
+            failures.append(error)
+        finally:
+            ready.set()
+
+    thread = threading.Thread(target=run, name="server")
+    thread.start()
+    ready.wait()
+    try:
+        if found:
+            yield found[0]
+    finally:
+        if found:
+            found[0].stop()
+        thread.join()
+    if failures:
+        raise failures[0]
 
 
 async def _run(server: _Server, listener: socket.socket, live: Live) -> None:

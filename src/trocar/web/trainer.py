@@ -141,38 +141,12 @@ class Trainer:
         key = (state.tick, state.amplitudes_tick)
         if self._shown is not None and self._shown[0] == key and state.age < 0.05:
             return self._shown[1]
-        snapshot = self._snapshot(state)
+        snapshot = self.snapshot_of(state)
         self._shown = (key, snapshot)
         return snapshot
 
-    def pose(self, instrument: int, pose: Pose, /) -> None:
-        """Take a pose of the page's; where the trainer has a device of its own, it is none of the page's business."""
-        if not self._device.steered_by_page:
-            return
-        held = HandlePose(present=pose.present, handle=pose.handle, roll=pose.roll, jaw=pose.jaw)
-        if isinstance(self._device, WebDevice):
-            self._device.take(instrument, held)
-        self._follow(instrument, held, pose.sequence)
-
-    def reset(self) -> None:
-        """Put the tissue back to rest; a device of the trainer's own begins anew."""
-        self._servo.reset()
-        self._began = time.monotonic()
-
-    def notices(self) -> Sequence[Notice]:
-        """Return what the user should read and has not been given yet."""
-        waiting = []
-        while self._notices:
-            waiting.append(self._notices.popleft())
-        return waiting
-
-    def beat(self) -> None:
-        """Pass the server's life sign on to the servo, and look after the servo."""
-        self._servo.beat()
-        if not self._servo.alive and not self._ended.is_set():
-            self._revive()
-
-    def _snapshot(self, state: ServoState) -> Snapshot:
+    def snapshot_of(self, state: ServoState) -> Snapshot:
+        """Return what the page is shown of a servo's state."""
         status = Status(0)
         if state.alive and state.age < 0.1:
             status |= Status.ALIVE
@@ -200,6 +174,33 @@ class Trainer:
             heights=self._surface.heights(state.amplitudes, state.records),
             in_plane=self._surface.in_plane(state.records),
         )
+
+    def pose(self, instrument: int, pose: Pose, /) -> None:
+        """Take a pose of the page's; where the trainer has a device of its own, it is none of the page's business."""
+        if not self._device.steered_by_page:
+            return
+        held = HandlePose(present=pose.present, handle=pose.handle, roll=pose.roll, jaw=pose.jaw)
+        if isinstance(self._device, WebDevice):
+            self._device.take(instrument, held)
+        self._follow(instrument, held, pose.sequence)
+
+    def reset(self) -> None:
+        """Put the tissue back to rest; a device of the trainer's own begins anew."""
+        self._servo.reset()
+        self._began = time.monotonic()
+
+    def notices(self) -> Sequence[Notice]:
+        """Return what the user should read and has not been given yet."""
+        waiting = []
+        while self._notices:
+            waiting.append(self._notices.popleft())
+        return waiting
+
+    def beat(self) -> None:
+        """Pass the server's life sign on to the servo, and look after the servo."""
+        self._servo.beat()
+        if not self._servo.alive and not self._ended.is_set():
+            self._revive()
 
     def _follow(self, instrument: int, pose: HandlePose, sequence: int) -> None:
         self._servo.command(

@@ -12,6 +12,8 @@ from trocar.study.contact.energy import energies_along, energy_forms
 from trocar.study.contact.scenes import SIZE, Setting
 from trocar.study.contact.trajectories import KINDS, random_poses
 
+ROUNDING = 1e-8  # of what is stored: six digits above what rounding may add up to in a trajectory
+
 
 @dataclass(frozen=True, kw_only=True)
 class Passivity:
@@ -22,6 +24,7 @@ class Passivity:
         trajectories: how many.
         stored: the most any of them stored [J].
         rise: the largest growth of stored energy minus work over what the trajectory stored at most [1].
+        rising: share of them where that is more than `ROUNDING` [1].
         above: the most that stored energy minus work lay above zero, over the same [1].
         finite: whether no number was anything else.
     """
@@ -30,6 +33,7 @@ class Passivity:
     trajectories: int
     stored: float
     rise: float
+    rising: float
     above: float
     finite: bool
 
@@ -62,7 +66,8 @@ def passivity(
         stored, work, finite = energies_along(one.scene, forms[which], poses)
         most = float(stored.max())
         excess = stored - work
-        found[kind].append((most, rise(excess), float(excess.max()), finite))
+        share = 1.0 / most if most > 0 else 0.0
+        found[kind].append((most, share * rise(excess), share * float(excess.max()), finite))
         if tell is not None:
             tell(i + 1)
     return [
@@ -70,8 +75,9 @@ def passivity(
             kind=kind,
             trajectories=len(rows),
             stored=max(row[0] for row in rows),
-            rise=max(row[1] / row[0] if row[0] > 0 else 0.0 for row in rows),
-            above=max(row[2] / row[0] if row[0] > 0 else 0.0 for row in rows),
+            rise=max(row[1] for row in rows),
+            rising=float(np.mean([row[1] > ROUNDING for row in rows])),
+            above=max(row[2] for row in rows),
             finite=all(row[3] for row in rows),
         )
         for kind, rows in found.items()
