@@ -20,10 +20,6 @@ from types import SimpleNamespace
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 
-from web.scripted_source import rest_pose
-from web.test_doors import REQUESTS, WEBSOCKETS, filled
-from web.test_refusals import MALFORMED, OUT_OF_RANGE
-from web.visitor import Visitor, farewell
 from websockets.exceptions import ConnectionClosed
 
 from trocar.devices.simulated import SimulatedDevice
@@ -32,6 +28,10 @@ from trocar.web.prepare import prepare
 from trocar.web.serve import serving
 from trocar.web.trainer import Trainer
 from trocar.web.wire import encode_pose
+from web.scripted_source import rest_pose
+from web.test_doors import REQUESTS, WEBSOCKETS, filled
+from web.test_refusals import MALFORMED, OUT_OF_RANGE
+from web.visitor import Visitor, farewell
 
 SETTLE = 2.0  # [s] before the first round
 
