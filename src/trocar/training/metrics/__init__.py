@@ -1,0 +1,1 @@
+"""Objective measures of an attempt, each a function of what was recorded alone."""
