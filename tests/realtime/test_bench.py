@@ -9,7 +9,8 @@ from trocar.contact.instrument import default_instruments
 from trocar.devices.device import HandlePose
 from trocar.errors import InputError
 from trocar.realtime.bench import alternate
-from trocar.realtime.sliding import DEPTH, SIZE, circling
+from trocar.realtime.sliding import DEPTH, circling
+from trocar.simulation.live import LIVE_SIZE
 
 PRESSING = HandlePose(present=True, handle=(0.0, 0.0, -5e-3), roll=0.0, jaw=1.0)
 
@@ -48,10 +49,10 @@ def test_no_measurement_without_time(seconds, rounds):
 
 
 def test_the_tips_come_down_and_stay_in_the_tissue():
-    instruments = default_instruments(SIZE)
-    motion = circling(instruments, SIZE, DEPTH)
+    instruments = default_instruments(LIVE_SIZE)
+    motion = circling(instruments, LIVE_SIZE, DEPTH)
     for time, height in ((0.0, 5e-3), (0.5, -DEPTH), (3.3, -DEPTH)):
         for instrument, pose in zip(instruments, motion(time), strict=True):
             tip = instrument.reach_of(pose.handle).tip
             assert tip[2] == pytest.approx(height, abs=1e-9)
-            assert 0 < tip[0] < SIZE[0]
+            assert 0 < tip[0] < LIVE_SIZE[0]

@@ -12,12 +12,13 @@ import pytest
 from trocar.contact.instrument import default_instruments
 from trocar.devices.simulated import SimulatedDevice
 from trocar.errors import InputError
+from trocar.simulation.live import LIVE_SIZE
 from trocar.web.messages import Hello
-from trocar.web.prepare import SIZE, prepare
+from trocar.web.prepare import prepare
 from trocar.web.source import LEFT, RIGHT, Pose, Status, Touch
 from web.visitor import until
 
-LEFT_HAND, RIGHT_HAND = default_instruments(SIZE)
+LEFT_HAND, RIGHT_HAND = default_instruments(LIVE_SIZE)
 PATIENCE = 60.0  # [s] on a busy machine; nothing here is a timing
 
 

@@ -32,8 +32,20 @@ def train(
         str | None, typer.Option(help="What the simulated hands do.", show_default="press-slide-lift")
     ] = None,
     seed: Annotated[
-        int | None, typer.Option(min=0, help="Of the simulated hands' tremor.", show_default="0")
+        int | None, typer.Option(min=0, help="Of the simulated hands' chances.", show_default="0")
     ] = None,
+    headless: Annotated[
+        bool, typer.Option("--headless", help="Let a scripted trainee do a task, without a browser.")
+    ] = False,
+    task: Annotated[
+        str | None, typer.Option(help="What it does; see trocar tasks.", show_default=False)
+    ] = None,
+    level: Annotated[int | None, typer.Option(help="Of the task.", show_default="1")] = None,
+    skill: Annotated[
+        str | None, typer.Option(help="How well: expert or novice.", show_default="expert")
+    ] = None,
+    real_time: Annotated[bool, typer.Option("--real-time", help="No faster than a person.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the score card as JSON alone.")] = False,
     recording: Annotated[
         Path | None, typer.Option(help="What the recorded device plays back.", show_default=False)
     ] = None,
@@ -54,6 +66,15 @@ def train(
     from trocar.web.prepare import prepare
     from trocar.web.serve import check_address, serve
 
+    if headless:
+        _attempt(device, task, level or 1, skill or "expert", seed or 0, real_time=real_time, as_json=as_json)
+        return
+    for option, value in (("task", task), ("level", level), ("skill", skill)):
+        if value is not None:
+            raise typer.BadParameter(f"--{option} is for --headless: the page has free practice alone so far")
+    for option, wanted in (("real-time", real_time), ("json", as_json)):
+        if wanted:
+            raise typer.BadParameter(f"--{option} is for --headless")
     hands = _device(device, ports, script=script, seed=seed, recording=recording)
     check_address(listen, cert, key)
     log = Console(stderr=True, highlight=False)
@@ -85,7 +106,7 @@ def _device(name: str, ports: str, **given: Any) -> Device | None:
     """Make the device named; None is the page's hands."""
     from trocar.contact.port_sets import instruments_through
     from trocar.devices.catalogue import device, entry
-    from trocar.web.prepare import SIZE
+    from trocar.simulation.live import LIVE_SIZE
 
     options = {option: value for option, value in given.items() if value is not None}
     entry(name)
@@ -94,8 +115,42 @@ def _device(name: str, ports: str, **given: Any) -> Device | None:
             raise typer.BadParameter(f"--{option} is for devices other than web")
         return None
     if name == "simulated":
-        options["instruments"] = instruments_through(ports, SIZE)
+        options["instruments"] = instruments_through(ports, LIVE_SIZE)
     return device(name, **options)
+
+
+def _attempt(
+    device: str, name: str | None, level: int, skill: str, seed: int, *, real_time: bool, as_json: bool
+) -> None:
+    """Let a scripted trainee do a task and print the score card."""
+    import json
+
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from trocar.cli.score_card import print_card
+    from trocar.training.headless import attempt
+
+    if device != "simulated":
+        raise typer.BadParameter("--headless needs --device simulated: nobody else is there")
+    if name is None:
+        raise typer.BadParameter("--headless needs --task; trocar tasks lists them")
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        work = bar.add_task(name, total=None)
+        done = attempt(
+            name,
+            level=level,
+            skill=skill,
+            seed=seed,
+            real_time=real_time,
+            watch=lambda time, limit: bar.update(work, completed=time, total=limit),
+        )
+    if as_json:
+        typer.echo(
+            json.dumps({"skill": skill, "seed": seed} | done.card.as_dict(), indent=2, allow_nan=False)
+        )
+    else:
+        print_card(done.card, done.task.marking.pass_score)
 
 
 def _open(address: str) -> None:

@@ -8,10 +8,9 @@ from math import cos, pi, sin
 from trocar.contact.instrument import Instrument, default_instruments
 from trocar.devices.device import HandlePose, Poses
 from trocar.simulation import Scene, SceneState, at_rest, make_scene
+from trocar.simulation.live import LIVE_SIZE, live_model
 from trocar.tissues.tissue import Tissue
-from trocar.waves.membrane import WaveMembrane
 
-SIZE = (0.06, 0.06)  # [m] the paper's block
 DEPTH = 8e-4  # [m] of the tips below the rest surface
 _CIRCLE, _TURN = 5e-3, 0.6  # [m] radius, [s] a turn: 52 mm/s over the surface
 _MIDDLES = (0.3, 0.7)  # of the block's width
@@ -19,7 +18,7 @@ _COME_DOWN, _FROM = 0.5, 5e-3  # [s] from so high [m]: a tip first seen in the t
 
 
 def sliding_contact(
-    tissue: Tissue, *, size: tuple[float, float] = SIZE, depth: float = DEPTH
+    tissue: Tissue, *, size: tuple[float, float] = LIVE_SIZE, depth: float = DEPTH
 ) -> tuple[Scene, SceneState, Callable[[float], Poses]]:
     """Return the live scene of a tissue under the default instruments, its state at rest and a motion.
 
@@ -29,7 +28,7 @@ def sliding_contact(
         depth: of the tips below the rest surface [m].
     """
     instruments = default_instruments(size)
-    scene = make_scene(WaveMembrane.fitted(tissue, size=size, modes=(52, 52)), tissue, instruments)
+    scene = make_scene(live_model(tissue, size=size), tissue, instruments)
     return scene, at_rest(scene), circling(instruments, size, depth)
 
 

@@ -9,24 +9,20 @@ from trocar.devices.device import Device
 from trocar.errors import InputError
 from trocar.model import Press, Support
 from trocar.simulation import at_rest, make_scene
+from trocar.simulation.live import LIVE_MODELS, LIVE_SIZE, live_model
 from trocar.study.linear_range import linear_range
 from trocar.tissues.catalogue import tissue as preset
-from trocar.waves.membrane import WaveMembrane
 from trocar.waves.solid import WaveSolid
 from trocar.web.trainer import Trainer
-
-SIZE = (0.06, 0.06)  # [m] of the block
-MODELS = ("wave-membrane", "wave-solid")
-_MODES = (52, 52)  # as many as the scene's window passes
 
 
 def prepare(
     tissue: str,
     *,
     ports: str = "usual",
-    model: str = MODELS[0],
+    model: str = LIVE_MODELS[0],
     device: Device | None = None,
-    size: tuple[float, float] = SIZE,
+    size: tuple[float, float] = LIVE_SIZE,
     watch: Callable[[str], None] = lambda text: None,
 ) -> Trainer:
     """Put a trainer together; nothing runs yet.
@@ -34,7 +30,7 @@ def prepare(
     Args:
         tissue: name of a preset.
         ports: name of a port set, or a file (`contact.port_sets`).
-        model: one of `MODELS`.
+        model: one of `LIVE_MODELS`.
         device: what moves the instruments; the page's hands if not given.
         size: sides of the block [m].
         watch: told what is being done.
@@ -42,20 +38,16 @@ def prepare(
     Raises:
         InputError: something named is not there or does not go together.
     """
-    if model not in MODELS:
-        raise InputError("model", " or ".join(MODELS), model)
+    if model not in LIVE_MODELS:
+        raise InputError("model", " or ".join(LIVE_MODELS), model)
     layers = preset(tissue)
     instruments = instruments_through(ports, size)
     watch(
         "fitting the tissue's membranes to its layers"
-        if model == MODELS[0]
+        if model == LIVE_MODELS[0]
         else "laying the tissue's waves out"
     )
-    waves: WaveMembrane | WaveSolid
-    if model == MODELS[0]:
-        waves = WaveMembrane.fitted(layers, size=size, support=Support.BASE, modes=_MODES)
-    else:
-        waves = WaveSolid(layers, size=size, support=Support.BASE, modes=_MODES, dynamic_modes=_MODES)
+    waves = live_model(layers, model, size=size)
     watch("laying the scene out")
     scene = make_scene(waves, layers, instruments)
     watch("finding the end of the linear range")

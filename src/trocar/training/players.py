@@ -1,0 +1,284 @@
+"""Scripted trainees, an expert and a novice: they do a task with the same eyes and hands as people, better or worse.
+
+A player sees what a trainee sees: the step that is on, where its own tips are and how hard they press. Each hand goes
+to its mark on minimum-jerk ways (Flash and Hogan 1985, J Neurosci 5:1688) above the tissue, comes down, and presses by
+correcting its depth. The novice is slower, stops to think, misses at first, wavers on the way, presses with a force of
+its own choosing before it corrects it, and trembles more. Nothing in tasks or scores knows a player.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Protocol
+
+import numpy as np
+
+from trocar.contact.instrument import Instrument
+from trocar.devices.unsteadiness import Tremor
+from trocar.errors import InputError
+from trocar.model import FloatArray
+from trocar.simulation import HANDLE, JAW, POSE, PRESENT
+from trocar.training.tasks.moment import Moment
+from trocar.training.tasks.progress import Progress
+from trocar.training.tasks.step import Follow, LetGo, Lift, Press, Step, Together
+
+_ABOVE = 4e-3  # [m] over the tissue, where a hand goes from mark to mark
+_GAIN = 0.1  # [m/(N s)] by which a hand corrects its depth: on skin it is there in a tenth of a second
+_CLOSE = 0.25  # [s] for a jaw
+_LIGHTEST = 0.4  # of the force that is right, that anybody presses with at first
+_RAISING = 5e-4  # [m/s] with tissue in the jaw
+_LEARNING = 3e-3  # [1/tick] of an error that is seen is taken away
+
+
+class Skill(StrEnum):
+    """How well a player plays."""
+
+    EXPERT = "expert"
+    NOVICE = "novice"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Habits:
+    """What makes a player an expert or a novice.
+
+    Attributes:
+        speed: of a tip on its way [m/s].
+        lowering: of a tip that comes down or goes up at the tissue [m/s].
+        pause: before each way, on average [s].
+        miss: of the first aim at a mark, in each direction [m].
+        waver: of a way to either side [m].
+        force_error: of the force first pressed with, relative.
+        patience: until an aim or a force is corrected [s].
+        tremor: of the handle, root mean square [m].
+    """
+
+    speed: float
+    lowering: float
+    pause: float
+    miss: float
+    waver: float
+    force_error: float
+    patience: float
+    tremor: float
+
+
+HABITS = {
+    Skill.EXPERT: Habits(
+        speed=0.030,
+        lowering=0.004,
+        pause=0.15,
+        miss=2e-4,
+        waver=2e-4,
+        force_error=0.05,
+        patience=0.2,
+        tremor=2e-5,
+    ),
+    Skill.NOVICE: Habits(
+        speed=0.014,
+        lowering=0.006,
+        pause=0.9,
+        miss=3e-3,
+        waver=4e-3,
+        force_error=1.2,
+        patience=1.0,
+        tremor=6e-5,
+    ),
+}
+
+
+class Player(Protocol):
+    """Whoever moves both hands in a task."""
+
+    def poses(self, moment: Moment, progress: Progress, /) -> FloatArray:
+        """Return both poses for the next tick, having seen the last; shape (2, POSE)."""
+        ...
+
+
+class ScriptedPlayer:
+    """A scripted trainee.
+
+    Args:
+        instruments: left and right.
+        skill: which habits.
+        seed: of its chances, 0 or above.
+        dt: length of a tick [s].
+
+    Raises:
+        InputError: the seed is negative.
+    """
+
+    def __init__(
+        self, instruments: tuple[Instrument, Instrument], skill: Skill, seed: int, *, dt: float
+    ) -> None:
+        if seed < 0:
+            raise InputError("player: seed", "a whole number, 0 or above", seed)
+        habits = HABITS[skill]
+        self._hands = tuple(
+            _Hand(
+                hand,
+                instrument,
+                habits,
+                np.random.default_rng((seed, hand, list(Skill).index(skill))),
+                f"{skill} {seed} {hand}",
+                dt,
+            )
+            for hand, instrument in enumerate(instruments)
+        )
+
+    def poses(self, moment: Moment, progress: Progress, /) -> FloatArray:
+        """Return both poses for the next tick, having seen the last; shape (2, POSE)."""
+        wanted = _wishes(progress.step)
+        return np.stack([hand.pose(moment, wanted.get(hand.number)) for hand in self._hands])
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Wish:
+    """What a step asks of one hand: a place, a force, and how high to hold what it holds."""
+
+    place: tuple[float, float]
+    force: float
+    aim: object  # what the aim is renewed for
+    slide: bool = False
+    height: float | None = None
+
+
+def _wishes(step: Step | None) -> dict[int, _Wish]:
+    if isinstance(step, Together):
+        return _wishes(step.base) | _wishes(step.step)
+    if isinstance(step, Press):
+        return {step.hand: _Wish(place=step.place, force=0.5 * (step.least + step.most), aim=step.place)}
+    if isinstance(step, Follow):
+        force = max(0.4 * step.most, 2 * step.least)
+        return {step.hand: _Wish(place=step.curve[step.to], force=force, aim=step.curve, slide=step.to > 0)}
+    if isinstance(step, Lift):
+        return {
+            step.hand: _Wish(
+                place=step.place, force=0.5 * step.most, aim=step.place, height=1.15 * step.height
+            )
+        }
+    assert step is None or isinstance(step, LetGo)
+    return {}
+
+
+class _Hand:
+    """One hand of a player."""
+
+    def __init__(
+        self,
+        number: int,
+        instrument: Instrument,
+        habits: Habits,
+        rng: np.random.Generator,
+        seed: str,
+        dt: float,
+    ) -> None:
+        self.number = number
+        self._instrument, self._habits, self._rng, self._dt = instrument, habits, rng, dt
+        self._tip = np.array(instrument.reach_of(instrument.handle).tip)
+        self._tremor = Tremor(seed, habits.tremor)
+        self._jaw = 1.0
+        self._aim: object = None
+        self._miss = np.zeros(2)
+        self._force_share = 1.0
+        self._since = 0.0
+        self._way: _Way | None = None
+        self._missed = False  # the jaw closed on nothing
+
+    def pose(self, moment: Moment, wish: _Wish | None) -> FloatArray:
+        time = moment.time
+        if wish is None or self._missed or (self._aim is not None and wish.aim != self._aim):
+            self._leave(moment)
+            if self._tip[2] >= 0.9 * _ABOVE and not moment.touches(self.number):
+                self._aim, self._missed = None, False
+        if wish is not None and self._aim is None:
+            self._begin(wish, time)
+        if wish is not None and wish.aim == self._aim and not self._missed:
+            self._do(moment, wish)
+        pose = np.zeros(POSE)
+        pose[PRESENT], pose[JAW] = 1.0, self._jaw
+        pose[HANDLE : HANDLE + 3] = self._instrument.handle_for(tuple(self._tip)) + np.array(
+            self._tremor.at(time)
+        )
+        return pose
+
+    def _begin(self, wish: _Wish, time: float) -> None:
+        """Aim at a mark, more or less well."""
+        habits = self._habits
+        self._aim, self._since = wish.aim, time
+        self._miss = habits.miss * self._rng.uniform(-1, 1, 2)
+        self._force_share = max(_LIGHTEST, 1 + habits.force_error * self._rng.uniform(-1, 1))
+        pause = habits.pause * self._rng.uniform(0.5, 1.5)
+        target = np.array([*(np.array(wish.place) + self._miss), _ABOVE])
+        self._way = _Way(
+            self._tip, target, time + pause, habits.speed, habits.waver * self._rng.uniform(-1, 1, 2)
+        )
+
+    def _do(self, moment: Moment, wish: _Wish) -> None:
+        if self._way is not None:
+            self._tip = self._way.at(moment.time)
+            if moment.time < self._way.end:
+                return
+            self._way = None
+            self._since = moment.time
+        patient = moment.time - self._since
+        if patient > self._habits.patience:
+            self._miss *= 1 - _LEARNING  # it sees where the mark is, and how hard it presses
+            self._force_share = 1 + (1 - _LEARNING) * (self._force_share - 1)
+        self._across(wish)
+        if wish.height is not None and (moment.holds(self.number) or self._jaw < 1.0):
+            self._raise(moment, wish.height)
+            return
+        target = wish.force * self._force_share
+        error = target - moment.force(self.number)
+        fastest = self._habits.lowering
+        self._tip[2] -= self._dt * float(np.clip(_GAIN * error, -fastest, fastest))
+        if wish.height is not None and abs(error) < 0.3 * target:
+            self._jaw = 1.0 - self._dt / _CLOSE
+
+    def _across(self, wish: _Wish) -> None:
+        away = np.array(wish.place) + self._miss - self._tip[:2]
+        distance = float(np.hypot(*away))
+        fastest = (0.11 if wish.slide else 0.15) * self._habits.speed * self._dt
+        if distance > 0:
+            self._tip[:2] += away * min(1.0, fastest / distance)
+
+    def _raise(self, moment: Moment, height: float) -> None:
+        if self._jaw > 0.0:
+            self._jaw = max(0.0, self._jaw - self._dt / _CLOSE)
+            return
+        if not moment.holds(self.number):
+            self._missed = True
+            return
+        low = height * self._force_share - self._tip[2]
+        self._tip[2] += float(np.clip(low, -_RAISING * self._dt, _RAISING * self._dt))
+
+    def _leave(self, moment: Moment) -> None:
+        self._way = None
+        self._jaw = min(1.0, self._jaw + self._dt / _CLOSE)
+        if not moment.holds(self.number):
+            self._tip[2] = min(_ABOVE, self._tip[2] + self._habits.lowering * 4 * self._dt)
+
+
+class _Way:
+    """A minimum-jerk way that may waver to a side."""
+
+    def __init__(
+        self, start: FloatArray, end: FloatArray, begin: float, speed: float, waver: FloatArray
+    ) -> None:
+        self._start, self._end, self._begin = start.copy(), end, begin
+        self._waver = np.array([*waver, 0.0])
+        # A minimum-jerk way's highest speed is 15/8 of its mean.
+        self._lasts = max(0.3, 15 / 8 * float(np.linalg.norm(end - start)) / speed)
+
+    @property
+    def end(self) -> float:
+        """When it is over [s]."""
+        return self._begin + self._lasts
+
+    def at(self, time: float) -> FloatArray:
+        """Return the place at a time [m]."""
+        share = min(max((time - self._begin) / self._lasts, 0.0), 1.0)
+        gone = share**3 * (10 - 15 * share + 6 * share**2)
+        aside: FloatArray = np.sin(2 * np.pi * gone) * self._waver
+        return self._start + gone * (self._end - self._start) + aside

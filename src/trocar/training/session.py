@@ -1,0 +1,196 @@
+"""An attempt from beginning to end: a task's scene, a player or a recording in it, and the score card that follows.
+
+A score is a function of the recording alone: the poses as they were, tick by tick. They are played through the scene
+once more, forces come out of that, and task and metrics see nothing else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from math import isfinite
+
+import numpy as np
+
+from trocar.errors import InputError
+from trocar.model import FloatArray
+from trocar.simulation import DT, POSE, RECORD, Scene, advance, at_rest, make_scene, played
+from trocar.simulation.live import live_model
+from trocar.tissues.catalogue import tissue
+from trocar.training.metrics.attempt import Attempt
+from trocar.training.metrics.measures import MEASURES, measured
+from trocar.training.players import Player
+from trocar.training.score import score
+from trocar.training.tasks.moment import Moment
+from trocar.training.tasks.progress import Mistake, Progress
+from trocar.training.tasks.task import Task
+from trocar.waves.membrane import WaveMembrane
+from trocar.waves.solid import WaveSolid
+
+LONGEST = 600.0  # [s] of an attempt without an end
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recording:
+    """What was done, tick by tick.
+
+    Attributes:
+        poses: of both handles as the scene consumed them, shape (n, 2, POSE).
+        dt: length of a tick [s].
+    """
+
+    poses: FloatArray
+    dt: float = DT
+
+    def __post_init__(self) -> None:
+        if self.poses.ndim != 3 or self.poses.shape[1:] != (2, POSE):
+            raise InputError("recording: poses", f"shape (n, 2, {POSE})", self.poses.shape)
+
+    @property
+    def times(self) -> FloatArray:
+        """Of the ticks' ends [s], shape (n,)."""
+        return np.asarray(self.dt * np.arange(1, len(self.poses) + 1), dtype=np.float64)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Card:
+    """A score card.
+
+    Attributes:
+        task: name.
+        level: of it.
+        score: 0 to 100 and, for who is quicker than the scripted expert, above.
+        passed: whether the score is high enough and every step was done.
+        completed: whether every step was done.
+        duration: [s].
+        metrics: by name; nan where one does not exist.
+        mistakes: in order.
+        advice: what to do better, the most useful first.
+    """
+
+    task: str
+    level: int
+    score: float
+    passed: bool
+    completed: bool
+    duration: float
+    metrics: Mapping[str, float]
+    mistakes: tuple[Mistake, ...]
+    advice: tuple[str, ...]
+
+    def as_dict(self) -> dict[str, object]:
+        """Return it as JSON takes it; a metric that does not exist is left out."""
+        units = {measure.name: measure.unit for measure in MEASURES}
+        return {
+            "task": self.task,
+            "level": self.level,
+            "score": self.score,
+            "passed": self.passed,
+            "completed": self.completed,
+            "duration_s": self.duration,
+            "metrics": {
+                name: {"value": value, "unit": units[name]}
+                for name, value in self.metrics.items()
+                if isfinite(value)
+            },
+            "mistakes": [
+                {"time_s": one.time, "step": one.step + 1, "words": one.words} for one in self.mistakes
+            ],
+            "advice": list(self.advice),
+        }
+
+
+@cache
+def _model(name: str) -> WaveMembrane | WaveSolid:
+    return live_model(tissue(name))
+
+
+def scene_of(task: Task) -> Scene:
+    """Return the scene a task is done in."""
+    return make_scene(_model(task.tissue), tissue(task.tissue), task.instruments)
+
+
+def perform(task: Task, player: Player, *, watch: Callable[[float], None] = lambda time: None) -> Recording:
+    """Let a player do a task, and return what was done.
+
+    Args:
+        task: what to do.
+        player: who does it.
+        watch: told the time of the attempt [s], every tick.
+    """
+    scene = scene_of(task)
+    state, progress = at_rest(scene), Progress(task)
+    records = np.zeros((2, RECORD))
+    moment = Moment(0.0, records)
+    limit = min(LONGEST, task.marking.cutoff)
+    poses: list[FloatArray] = []
+    while not progress.done and moment.time < limit:
+        poses.append(player.poses(moment, progress))
+        advance(scene, state, poses[-1], records)
+        moment = Moment(scene.dt * len(poses), records)
+        progress.advance(moment)
+        watch(moment.time)
+    return Recording(poses=np.stack(poses), dt=scene.dt)
+
+
+def assess(task: Task, recording: Recording) -> Card:
+    """Play a recording through the task's scene and mark it.
+
+    Raises:
+        InputError: nobody holds an instrument in it, or it is shorter than a tenth of a second.
+    """
+    records = played(scene_of(task), recording.poses)
+    times = recording.times
+    progress = Progress(task)
+    for time, both in zip(times, records, strict=True):
+        progress.advance(Moment(float(time), both))
+    attempt = Attempt(
+        times=times, records=records, force_limit=task.force_limit, ideal_length=task.ideal_length
+    )
+    metrics = measured(attempt)
+    errors = len(progress.mistakes)
+    found = score(
+        task.marking, time=attempt.duration, errors=errors, over_limit=metrics["time_over_limit"]
+    ) * float(progress.done)
+    passed = progress.done and found >= task.marking.pass_score
+    return Card(
+        task=task.name,
+        level=task.level,
+        score=found,
+        passed=passed,
+        completed=progress.done,
+        duration=attempt.duration,
+        metrics=metrics,
+        mistakes=tuple(progress.mistakes),
+        advice=tuple(_advice(task, progress, metrics)),
+    )
+
+
+def _advice(task: Task, progress: Progress, metrics: Mapping[str, float]) -> list[str]:
+    """Say what cost most first."""
+    marking = task.marking
+    if not progress.done:
+        at = f"step {progress.number + 1} of {len(task.steps)}"
+        return [f"The attempt ended at {at}: {task.steps[progress.number].words}"]
+    costs = [(metrics["time"] - marking.expert_time, _SLOW)]
+    for words in sorted({one.words for one in progress.mistakes}):
+        times = sum(one.words == words for one in progress.mistakes)
+        over = marking.per_second_over_limit * metrics["time_over_limit"] if "force" in words else 0.0
+        often = "once" if times == 1 else f"{times} times"
+        costs.append((marking.per_error * times + over, f"You {words} {often}: {_REMEDIES[words]}"))
+    costs.sort(key=lambda each: -each[0])
+    return [words for cost, words in costs if cost > 0.1 * marking.expert_time] or [
+        "Nothing cost you much. Try the next level, or be quicker with the same care."
+    ]
+
+
+_SLOW = "Time cost you most: go straight from mark to mark, and look for the next while you finish this one."
+_REMEDIES = {
+    "used too much force": "come down slowly, and stop when the bar is at its mark.",
+    "pressed beside the mark": "go over the mark before you come down.",
+    "lifted off the line": "keep the bar from reaching zero.",
+    "left the line": "go slower where it bends.",
+    "worked on tissue that was not held down": "look at the holding hand's bar before you press.",
+    "took hold beside the mark": "go over the mark before you close the jaw.",
+}

@@ -1,0 +1,44 @@
+"""One tick as a task sees it: where both instruments are and what they feel, and nothing of who moves them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from trocar.model import FloatArray
+from trocar.simulation import FORCE, TIP, TOUCH, TOUCH_HOLDING, TOUCH_TOUCHING
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A tick.
+
+    Attributes:
+        time: the tissue's, since the attempt began [s].
+        records: of both instruments, as `simulation.advance` writes them, shape (2, RECORD).
+    """
+
+    time: float
+    records: FloatArray
+
+    def tip(self, hand: int) -> FloatArray:
+        """Return a tip's place [m], shape (3,)."""
+        return self.records[hand, TIP : TIP + 3]
+
+    def force(self, hand: int) -> float:
+        """Return the force on a tip [N]."""
+        return float(np.sqrt((self.records[hand, FORCE : FORCE + 3] ** 2).sum()))
+
+    def touches(self, hand: int) -> bool:
+        """Return whether a tip touches the tissue."""
+        return bool(int(self.records[hand, TOUCH]) & TOUCH_TOUCHING)
+
+    def holds(self, hand: int) -> bool:
+        """Return whether a jaw holds the tissue."""
+        return bool(int(self.records[hand, TOUCH]) & TOUCH_HOLDING)
+
+    def away(self, hand: int, place: tuple[float, float]) -> float:
+        """Return how far a tip is from a place, seen from above [m]."""
+        x, y, _ = self.tip(hand)
+        return float(np.hypot(x - place[0], y - place[1]))

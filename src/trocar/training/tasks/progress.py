@@ -1,0 +1,93 @@
+"""How far an attempt has come, tick by tick: the step that is on, what to do now, and the mistakes so far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from trocar.training.tasks.moment import Moment
+from trocar.training.tasks.step import Step
+from trocar.training.tasks.task import Task
+
+TOO_MUCH = "used too much force"
+_AGAIN = 0.5  # [s] a mistake that stops for less goes on
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mistake:
+    """One mistake.
+
+    Attributes:
+        time: when it began [s].
+        step: number of the step that was on.
+        words: what it was.
+    """
+
+    time: float
+    step: int
+    words: str
+
+
+class Progress:
+    """Follow an attempt.
+
+    Args:
+        task: what is attempted.
+    """
+
+    def __init__(self, task: Task) -> None:
+        self.task = task
+        self.number = 0
+        """Of the step that is on, from 0; as many as there are when all is done."""
+        self.mistakes: list[Mistake] = []
+        self.over_limit = 0.0
+        """Time with a force above the task's limit [s]."""
+        self._met_since: float | None = None
+        self._begins = (
+            True  # a step: what was right for the last one is no mistake in this, until it has ended
+        )
+        self._wrong: dict[str, float] = {}
+        self._last: Moment | None = None
+
+    @property
+    def done(self) -> bool:
+        """Whether every step is."""
+        return self.number == len(self.task.steps)
+
+    @property
+    def step(self) -> Step | None:
+        """The step that is on."""
+        return None if self.done else self.task.steps[self.number]
+
+    @property
+    def now(self) -> str:
+        """What would bring the step nearer."""
+        return "" if self.step is None or self._last is None else self.step.hint(self._last)
+
+    def advance(self, moment: Moment) -> None:
+        """Take the next tick; times must rise."""
+        step = self.step
+        if step is None:
+            return
+        too_much = max(moment.force(0), moment.force(1)) > self.task.force_limit
+        if too_much and self._last is not None:
+            self.over_limit += moment.time - self._last.time
+        self._last = moment
+        self._note(moment.time, TOO_MUCH if too_much else "")
+        self._note(moment.time, step.mistake(moment), counts=not self._begins)
+        self._begins = False
+        if not step.met(moment):
+            self._met_since = None
+            return
+        if self._met_since is None:
+            self._met_since = moment.time
+        if moment.time - self._met_since >= step.lasting:
+            self.number += 1
+            self._met_since = None
+            self._begins = True
+
+    def _note(self, time: float, words: str, *, counts: bool = True) -> None:
+        if not words:
+            return
+        if counts and time - self._wrong.get(words, -_AGAIN) >= _AGAIN:
+            self.mistakes.append(Mistake(time=time, step=self.number, words=words))
+        self._wrong[words] = time

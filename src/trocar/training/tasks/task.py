@@ -1,0 +1,69 @@
+"""What a task is: its place in training, the steps it asks for, and how it is marked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import dist
+
+from trocar.contact.instrument import Instrument
+from trocar.contact.port_sets import instruments_through
+from trocar.errors import InputError
+from trocar.simulation.live import LIVE_SIZE
+from trocar.training.score import Marking
+from trocar.training.tasks.step import Step
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """One task at one level.
+
+    Attributes:
+        name: short, as on the command line.
+        title: as in a list.
+        level: 1 is the easiest.
+        purpose: what it trains.
+        tissue: name of the preset it is done on.
+        ports: name of the port set.
+        steps: in order.
+        force_limit: more than this on either tip is a mistake [N].
+        marking: how it is marked.
+        pass_source: where the pass mark comes from.
+    """
+
+    name: str
+    title: str
+    level: int
+    purpose: str
+    tissue: str
+    ports: str
+    steps: tuple[Step, ...]
+    force_limit: float
+    marking: Marking
+    pass_source: str
+
+    def __post_init__(self) -> None:
+        if not self.steps:
+            raise InputError(f"task {self.name}: steps", "at least one", "none")
+
+    @property
+    def instruments(self) -> tuple[Instrument, Instrument]:
+        """Left and right, through the task's ports."""
+        return instruments_through(self.ports, LIVE_SIZE)
+
+    @property
+    def ideal_length(self) -> float:
+        """Length of the straight ways from where the tips begin over all marks, both tips together [m]."""
+        return sum(
+            _length([instrument.reach_of(instrument.handle).tip[:2], *self._places(hand)])
+            for hand, instrument in enumerate(self.instruments)
+        )
+
+    def _places(self, hand: int) -> list[tuple[float, float]]:
+        first = ([mark.place for mark in step.marks if mark.hand == hand] for step in self.steps)
+        return [places[0] for places in first if places]
+
+
+def _length(places: Sequence[Sequence[float]]) -> float:
+    return sum(dist(one, other) for one, other in pairwise(places))

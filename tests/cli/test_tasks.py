@@ -1,0 +1,63 @@
+"""`trocar tasks`, and a scripted trainee on the command line."""
+
+import json
+
+import pytest
+
+from trocar.cli import main
+from trocar.training.tasks.catalogue import LEVELS, TASKS
+
+
+def test_tasks_are_listed(capsys):
+    assert main(["tasks", "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert [(row["name"], row["level"]) for row in rows] == [
+        (name, level) for name in TASKS for level in LEVELS
+    ]
+    assert all(row["title"] and row["pass_source"] for row in rows)
+    assert main(["tasks"]) == 0
+    out = capsys.readouterr().out
+    assert all(name in out for name in TASKS)
+
+
+def test_a_scripted_trainee_prints_a_score_card(capsys):
+    command = [
+        "train",
+        "--headless",
+        "--device",
+        "simulated",
+        "--skill",
+        "expert",
+        "--task",
+        "palpate",
+        "--seed",
+        "1",
+    ]
+    assert main([*command, "--json"]) == 0
+    card = json.loads(capsys.readouterr().out)
+    assert (card["task"], card["skill"], card["seed"], card["passed"]) == ("palpate", "expert", 1, True)
+    assert card["duration_s"] >= 20
+    assert card["metrics"]["time"] == {"value": card["duration_s"], "unit": "s"}
+    assert card["advice"]
+    assert main(command) == 0
+    out = capsys.readouterr().out
+    assert f"palpate, level 1: {card['score']:.0f} of 100, passed" in out
+    assert "not yet validated on people" in out
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--headless"], "--headless needs --device simulated"),
+        (["--headless", "--device", "simulated"], "--headless needs --task"),
+        (["--headless", "--device", "simulated", "--task", "palp"], "did you mean palpate"),
+        (["--headless", "--device", "simulated", "--task", "lift", "--skill", "good"], "expert or novice"),
+        (["--task", "lift"], "--task is for --headless"),
+        (["--json"], "--json is for --headless"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(options, words, capsys):
+    assert main(["train", "--no-browser", *options]) == 2
+    said = capsys.readouterr()
+    assert words in " ".join(said.err.split())
+    assert said.out == ""
