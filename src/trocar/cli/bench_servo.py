@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from trocar.realtime.bench import Round, ServoBench
 
 
+_MOST_COLUMNS = 5  # of single rounds; more would not fit a terminal
+
+
 def servo(
     seconds: Annotated[float, typer.Option(help="Of each round.")] = 20.0,
     rounds: Annotated[int, typer.Option(help="Of the servo; the empty loop has one more.")] = 3,
@@ -62,7 +65,8 @@ def _table(found: ServoBench) -> Table:
         show_edge=False,
     )
     table.add_column("")
-    for number, one in enumerate(found.rounds, 1):
+    rounds = found.rounds if len(found.rounds) <= _MOST_COLUMNS else ()
+    for number, one in enumerate(rounds, 1):
         table.add_column(f"{number} {one.loop}", justify="right")
     together = [one for one in (found.servo, found.empty) if one is not None]
     for one in together:
@@ -80,7 +84,7 @@ def _table(found: ServoBench) -> Table:
         ("both in contact, %", lambda r: "" if r.loop == "empty" else f"{100 * r.touching:.0f}"),
     )
     for name, text in rows:
-        table.add_row(name, *(text(one) for one in (*found.rounds, *together)))
+        table.add_row(name, *(text(one) for one in (*rounds, *together)))
     return table
 
 

@@ -189,7 +189,7 @@ class _Hand:
         time = moment.time
         if wish is None or self._missed or (self._aim is not None and wish.aim != self._aim):
             self._leave(moment)
-            if self._tip[2] >= 0.9 * _ABOVE and not moment.touches(self.number):
+            if self._tip[2] >= 0.9 * _ABOVE and self._jaw == 1.0 and not moment.touches(self.number):
                 self._aim, self._missed = None, False
         if wish is not None and self._aim is None:
             self._begin(wish, time)
@@ -225,10 +225,10 @@ class _Hand:
         if patient > self._habits.patience:
             self._miss *= 1 - _LEARNING  # it sees where the mark is, and how hard it presses
             self._force_share = 1 + (1 - _LEARNING) * (self._force_share - 1)
-        self._across(wish)
         if wish.height is not None and (moment.holds(self.number) or self._jaw < 1.0):
             self._raise(moment, wish.height)
             return
+        self._across(wish)
         target = wish.force * self._force_share
         error = target - moment.force(self.number)
         fastest = self._habits.lowering

@@ -10,7 +10,7 @@ import numpy as np
 from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.simulation import DIRECTION, FORCE, OUTSIDE, RECORD, RECORD_ROLL, TIP, TOUCH, TOUCH_PRESENT
-from trocar.training.metrics.motion import Path, path
+from trocar.training.metrics.motion import SmoothPath, smooth_path
 
 HANDS = ("left", "right")
 USED = 1e-3  # [m] an instrument whose tip went less far was not used
@@ -45,7 +45,7 @@ class Attempt:
         return np.asarray((self.records[:, :, TOUCH].astype(np.int64) & TOUCH_PRESENT) != 0)
 
     @cached_property
-    def tips(self) -> dict[str, Path]:
+    def tips(self) -> dict[str, SmoothPath]:
         """Tips of the instruments that were used [m]."""
         found = {}
         for hand, name in enumerate(HANDS):
@@ -55,7 +55,7 @@ class Attempt:
                     found[name] = tip
         return found
 
-    def of_used(self, columns: slice) -> dict[str, Path]:
+    def of_used(self, columns: slice) -> dict[str, SmoothPath]:
         """Return columns of the records, filtered, of the instruments that were used."""
         return {name: self._of(HANDS.index(name), columns) for name in self.tips}
 
@@ -69,9 +69,9 @@ class Attempt:
         """From the first tick to the last [s]."""
         return float(self.times[-1] - self.times[0])
 
-    def _of(self, hand: int, columns: slice) -> Path:
+    def _of(self, hand: int, columns: slice) -> SmoothPath:
         here = self.present[:, hand]
-        return path(self.times[here], self.records[here, hand, columns])
+        return smooth_path(self.times[here], self.records[here, hand, columns])
 
 
 SHAFT = slice(DIRECTION, DIRECTION + 3)

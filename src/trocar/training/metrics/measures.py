@@ -13,7 +13,7 @@ import numpy as np
 
 from trocar.model import FloatArray
 from trocar.training.metrics.attempt import ROLL, SHAFT, WITHDRAWN, Attempt
-from trocar.training.metrics.motion import RATE, Path
+from trocar.training.metrics.motion import RATE, SmoothPath
 from trocar.training.metrics.smoothness import (
     MOVING,
     integrated_jerk,
@@ -78,7 +78,9 @@ def depth_perception(attempt: Attempt) -> float:
     return sum(shaft.length for shaft in attempt.of_used(WITHDRAWN).values())
 
 
-def _worst(attempt: Attempt, of: Callable[[Path], float], worst: Callable[[list[float]], float]) -> float:
+def _worst(
+    attempt: Attempt, of: Callable[[SmoothPath], float], worst: Callable[[list[float]], float]
+) -> float:
     found = [of(tip) for tip in attempt.tips.values()]
     return worst(found) if found else nan
 

@@ -25,7 +25,7 @@ _FINER = 5  # points of an integral to a sample: between samples a derivative is
 
 
 @dataclass(frozen=True, kw_only=True)
-class Path:
+class SmoothPath:
     """One filtered coordinate, or several together, on a step of 1/`RATE`.
 
     Attributes:
@@ -60,7 +60,7 @@ class Path:
         return float(np.trapezoid(squared, fine))
 
 
-def path(times: FloatArray, places: FloatArray) -> Path:
+def smooth_path(times: FloatArray, places: FloatArray) -> SmoothPath:
     """Filter and resample a recorded motion.
 
     Args:
@@ -86,7 +86,7 @@ def path(times: FloatArray, places: FloatArray) -> Path:
     smooth = low_passed(_between(even, at, values), (len(even) - 1) / (even[-1] - even[0]))
     wanted = np.linspace(at[0], at[-1], max(round((at[-1] - at[0]) * RATE), 8) + 1)
     samples = make_interp_spline(even, smooth, k=3)(wanted)
-    return Path(times=wanted, places=samples, spline=make_interp_spline(wanted, samples, k=5))
+    return SmoothPath(times=wanted, places=samples, spline=make_interp_spline(wanted, samples, k=5))
 
 
 def low_passed(values: FloatArray, rate: float) -> FloatArray:

@@ -22,14 +22,14 @@ from math import log, nan, sqrt
 import numpy as np
 
 from trocar.model import FloatArray
-from trocar.training.metrics.motion import RATE, Path
+from trocar.training.metrics.motion import RATE, SmoothPath
 
 MOVING = 5e-3  # [m/s] a slower tip is idle
 MOVEMENT = 0.4  # [s] a shorter run above `MOVING` is no movement
 _HIGHEST, _LOUD, _PADDED = 10.0, 0.05, 4  # [Hz], of the peak, powers of two: SPARC's own constants
 
 
-def integrated_jerk(motion: Path) -> float:
+def integrated_jerk(motion: SmoothPath) -> float:
     """Return S [1]; nan of a motion that goes nowhere."""
     if motion.length == 0.0:
         return nan
@@ -37,7 +37,7 @@ def integrated_jerk(motion: Path) -> float:
     return sqrt(motion.duration**5 / (2 * motion.length**2) * squared)
 
 
-def log_dimensionless_jerk(motion: Path) -> float:
+def log_dimensionless_jerk(motion: SmoothPath) -> float:
     """Return LDLJ [1]; nan of a motion that goes nowhere."""
     fastest = float(motion.speed.max())
     if fastest == 0.0:
@@ -65,14 +65,14 @@ def sparc(speed: FloatArray, rate: float = RATE) -> float:
     return -float(np.hypot(np.diff(frequencies) / across, np.diff(spectrum)).sum())
 
 
-def movements(motion: Path) -> list[slice]:
+def movements(motion: SmoothPath) -> list[slice]:
     """Return where a motion moves: runs of samples above `MOVING`, at least `MOVEMENT` long."""
     moving = np.concatenate([[False], motion.speed > MOVING, [False]])
     begins, ends = (np.flatnonzero(np.diff(moving.astype(np.int8)) == sign) for sign in (1, -1))
     return [slice(a, b) for a, b in zip(begins, ends, strict=True) if b - a >= MOVEMENT * RATE]
 
 
-def sparc_of_movements(motion: Path) -> float:
+def sparc_of_movements(motion: SmoothPath) -> float:
     """Return the median spectral arc length of a motion's movements [1]; nan where there is none."""
     speed = motion.speed
     found = [sparc(speed[part]) for part in movements(motion)]
