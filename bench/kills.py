@@ -13,14 +13,15 @@ import sys
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+TESTS = Path(__file__).parent.parent / "tests"
+sys.path.insert(0, str(TESTS))
 
 from realtime.toy_scene import TOY, at_rest, toy_scene, until
 from trocar.realtime.guard import GuardLimits
 from trocar.realtime.servo import Servo
 
 LIMITS = GuardLimits(damping=1e3, still_growth=1e6, reserve=1e3, credit=1e3, slew=1e9, clamp=100.0)
-PARENT = Path(__file__).parent.parent / "tests/realtime/doomed_parent.py"
+PARENT = TESTS / "realtime/doomed_parent.py"
 
 
 def presses(servo: Servo) -> bool:
@@ -44,7 +45,12 @@ def kill_servo(servo: Servo) -> bool:
 
 def kill_parent() -> bool:
     """Kill a parent; say whether its servo was gone within three seconds."""
-    parent = subprocess.Popen([sys.executable, PARENT], stdout=subprocess.PIPE, text=True)
+    parent = subprocess.Popen(
+        [sys.executable, PARENT],
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONPATH": str(TESTS)},
+    )
     child = int(parent.stdout.readline())
     time.sleep(random.uniform(0.0, 0.2))
     parent.kill()
