@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON alone.")]
 TissueName = Annotated[str, typer.Option("--tissue", help="A preset; see trocar tissues list.")]
 _SIZE = (0.06, 0.06)  # [m] the paper's block
-_TOLERANCE = 1e-6  # of what a live tip feels; the trainer's
+_TOLERANCE = 1e-4  # of what a live tip feels; the trainer's (`simulation.scene.TOLERANCE`)
 _TOLERANCE_RANGE = (1e-8, 0.1)  # below, the modes no longer fit into memory
 _DIAMETER_RANGE_MM = (2.0, 30.0)  # on the block of 60 mm
 _TIP_RANGE_MM = (2.0, 12.0)
