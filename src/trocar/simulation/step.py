@@ -304,6 +304,9 @@ def _answer(
     held = flags[_GRIPPING] != 0.0
     _push_aside(scene, state, t, points)
     along, aside, leaning = state.drag[t], state.aside[t], state.leaning[t]
+    if not touched:  # what was drawn along springs back, unfelt
+        for i in range(2):
+            along[i] = leaning[i] = 0.0
     rubbing = sqrt((along[0] - leaning[0]) ** 2 + (along[1] - leaning[1]) ** 2)
     most = inf if held else scene.friction * max(normal, 0.0)
     if rubbing > most:

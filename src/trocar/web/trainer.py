@@ -152,7 +152,8 @@ class Trainer:
             status |= Status.ALIVE
         if ServoFlag.DEGRADED in state.flags:
             status |= Status.DEGRADED
-        if ServoFlag.UNHEARD in state.flags or ServoFlag.FAULT in state.flags or state.age >= 0.05:
+        silent = not state.alive or state.age >= 0.05
+        if silent or ServoFlag.UNHEARD in state.flags or ServoFlag.FAULT in state.flags:
             status |= Status.FORCES_CUT
         forces = np.linalg.norm(state.records[:, FORCE : FORCE + 3], axis=1)
         if forces.max() > self._linear_force:
