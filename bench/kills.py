@@ -13,14 +13,14 @@ import sys
 import time
 from pathlib import Path
 
-TESTS = Path(__file__).parent.parent / "tests"
-sys.path.insert(0, str(TESTS))
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 
 from realtime.toy_scene import TOY, at_rest, toy_scene, until
 from trocar.realtime.guard import GuardLimits
 from trocar.realtime.servo import Servo
 
 LIMITS = GuardLimits(damping=1e3, still_growth=1e6, reserve=1e3, credit=1e3, slew=1e9, clamp=100.0)
+TESTS = Path(__file__).parent.parent / "tests"
 PARENT = TESTS / "realtime/doomed_parent.py"
 
 
