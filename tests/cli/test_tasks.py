@@ -41,7 +41,7 @@ def test_a_scripted_trainee_prints_a_score_card(capsys):
     assert card["advice"]
     assert main(command) == 0
     out = capsys.readouterr().out
-    assert f"palpate, level 1: {card['score']:.0f} of 100, passed" in out
+    assert f"palpate, level 1: {card['score']:.1f} of 100, passed" in out
     assert "not yet validated on people" in out
 
 
@@ -52,6 +52,11 @@ def test_a_scripted_trainee_prints_a_score_card(capsys):
         (["--headless", "--device", "simulated"], "--headless needs --task"),
         (["--headless", "--device", "simulated", "--task", "palp"], "did you mean palpate"),
         (["--headless", "--device", "simulated", "--task", "lift", "--skill", "good"], "expert or novice"),
+        (
+            ["--headless", "--device", "simulated", "--task", "lift", "--tissue", "liver"],
+            "--tissue does not go with",
+        ),
+        (["--headless", "--device", "simulated", "--task", "lift", "--level", "0"], "level"),
         (["--task", "lift"], "--task is for --headless"),
         (["--json"], "--json is for --headless"),
     ],

@@ -20,7 +20,7 @@ def print_card(card: Card, pass_score: float) -> None:
     console = Console(highlight=False)
     verdict = "passed" if card.passed else "not passed"
     console.print(
-        f"[bold]{card.task}, level {card.level}: {card.score:.0f} of 100, {verdict}[/bold] "
+        f"[bold]{card.task}, level {card.level}: {card.score:.1f} of 100, {verdict}[/bold] "
         f"(from {pass_score:g}; not yet validated on people)"
     )
     for words in card.advice:

@@ -61,20 +61,37 @@ def train(
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the address only.")] = False,
 ) -> None:
     """Press, slide on and lift live tissue with two instruments, in the browser. Ctrl-C ends it."""
+    attempted = {
+        "task": task,
+        "level": level,
+        "skill": skill,
+        "real-time": real_time or None,
+        "json": as_json or None,
+    }
+    if headless:
+        live = {"tissue": tissue != "skin", "ports": ports != "usual", "model": model != "wave-membrane"}
+        live |= {"script": script is not None, "recording": recording is not None}
+        for option in (option for option, given in live.items() if given):
+            raise typer.BadParameter(
+                f"--{option} does not go with --headless: the task says what it is done on"
+            )
+        if device != "simulated":
+            raise typer.BadParameter("--headless needs --device simulated: nobody else is there")
+        if task is None:
+            raise typer.BadParameter("--headless needs --task; trocar tasks lists them")
+        options = {"level": level, "skill": skill, "seed": seed}
+        _attempt(
+            task, {name: value for name, value in options.items() if value is not None}, real_time, as_json
+        )
+        return
+    for option in (option for option, given in attempted.items() if given is not None):
+        raise typer.BadParameter(f"--{option} is for --headless: the page has free practice alone so far")
+
     from rich.console import Console
 
     from trocar.web.prepare import prepare
     from trocar.web.serve import check_address, serve
 
-    if headless:
-        _attempt(device, task, level or 1, skill or "expert", seed or 0, real_time=real_time, as_json=as_json)
-        return
-    for option, value in (("task", task), ("level", level), ("skill", skill)):
-        if value is not None:
-            raise typer.BadParameter(f"--{option} is for --headless: the page has free practice alone so far")
-    for option, wanted in (("real-time", real_time), ("json", as_json)):
-        if wanted:
-            raise typer.BadParameter(f"--{option} is for --headless")
     hands = _device(device, ports, script=script, seed=seed, recording=recording)
     check_address(listen, cert, key)
     log = Console(stderr=True, highlight=False)
@@ -119,9 +136,7 @@ def _device(name: str, ports: str, **given: Any) -> Device | None:
     return device(name, **options)
 
 
-def _attempt(
-    device: str, name: str | None, level: int, skill: str, seed: int, *, real_time: bool, as_json: bool
-) -> None:
+def _attempt(task: str, options: dict[str, Any], real_time: bool, as_json: bool) -> None:
     """Let a scripted trainee do a task and print the score card."""
     import json
 
@@ -131,24 +146,17 @@ def _attempt(
     from trocar.cli.score_card import print_card
     from trocar.training.headless import attempt
 
-    if device != "simulated":
-        raise typer.BadParameter("--headless needs --device simulated: nobody else is there")
-    if name is None:
-        raise typer.BadParameter("--headless needs --task; trocar tasks lists them")
     with Progress(console=Console(stderr=True), transient=True) as bar:
-        work = bar.add_task(name, total=None)
+        work = bar.add_task(task, total=None)
         done = attempt(
-            name,
-            level=level,
-            skill=skill,
-            seed=seed,
+            task,
             real_time=real_time,
             watch=lambda time, limit: bar.update(work, completed=time, total=limit),
+            **options,
         )
     if as_json:
-        typer.echo(
-            json.dumps({"skill": skill, "seed": seed} | done.card.as_dict(), indent=2, allow_nan=False)
-        )
+        found = {"skill": done.skill, "seed": done.seed} | done.card.as_dict()
+        typer.echo(json.dumps(found, indent=2, allow_nan=False))
     else:
         print_card(done.card, done.task.marking.pass_score)
 

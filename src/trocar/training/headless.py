@@ -22,11 +22,15 @@ class Attempted:
 
     Attributes:
         task: that was attempted.
+        skill: whose attempt it was.
+        seed: of its chances.
         recording: what was done.
         card: how it was marked.
     """
 
     task: Task
+    skill: Skill
+    seed: int
     recording: Recording
     card: Card
 
@@ -68,4 +72,6 @@ def attempt(
                 time.sleep(max(0.0, began + now - time.monotonic()))
 
     recording = perform(task, player, watch=look)
-    return Attempted(task=task, recording=recording, card=assess(task, recording))
+    return Attempted(
+        task=task, skill=Skill(skill), seed=seed, recording=recording, card=assess(task, recording)
+    )

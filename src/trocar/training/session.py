@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from math import isfinite
+from math import isfinite, nan
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from trocar.training.metrics.measures import MEASURES, measured
 from trocar.training.players import Player
 from trocar.training.score import score
 from trocar.training.tasks.moment import Moment
-from trocar.training.tasks.progress import Mistake, Progress
+from trocar.training.tasks.progress import TOO_MUCH, Mistake, Progress
 from trocar.training.tasks.task import Task
 from trocar.waves.membrane import WaveMembrane
 from trocar.waves.solid import WaveSolid
@@ -46,6 +46,8 @@ class Recording:
     def __post_init__(self) -> None:
         if self.poses.ndim != 3 or self.poses.shape[1:] != (2, POSE):
             raise InputError("recording: poses", f"shape (n, 2, {POSE})", self.poses.shape)
+        if not np.isfinite(self.poses).all():
+            raise InputError("recording: poses", "finite numbers alone", "one that is not")
 
     @property
     def times(self) -> FloatArray:
@@ -138,15 +140,24 @@ def assess(task: Task, recording: Recording) -> Card:
     """Play a recording through the task's scene and mark it.
 
     Raises:
-        InputError: nobody holds an instrument in it, or it is shorter than a tenth of a second.
+        InputError: nobody holds an instrument in it, or its ticks are not the scene's.
     """
-    records = played(scene_of(task), recording.poses)
-    times = recording.times
+    scene = scene_of(task)
+    if recording.dt != scene.dt:
+        raise InputError("recording: dt", f"{scene.dt:g} s, the scene's tick", f"{recording.dt:g} s")
+    records, times = played(scene, recording.poses), recording.times
     progress = Progress(task)
+    ticks = 0  # what comes after the last step is nobody's business
     for time, both in zip(times, records, strict=True):
+        if progress.done:
+            break
         progress.advance(Moment(float(time), both))
+        ticks += 1
     attempt = Attempt(
-        times=times, records=records, force_limit=task.force_limit, ideal_length=task.ideal_length
+        times=times[:ticks],
+        records=records[:ticks],
+        force_limit=task.force_limit,
+        ideal_length=task.ideal_length if progress.done else nan,
     )
     metrics = measured(attempt)
     errors = len(progress.mistakes)
@@ -176,21 +187,22 @@ def _advice(task: Task, progress: Progress, metrics: Mapping[str, float]) -> lis
     costs = [(metrics["time"] - marking.expert_time, _SLOW)]
     for words in sorted({one.words for one in progress.mistakes}):
         times = sum(one.words == words for one in progress.mistakes)
-        over = marking.per_second_over_limit * metrics["time_over_limit"] if "force" in words else 0.0
+        over = marking.per_second_over_limit * metrics["time_over_limit"] if words == TOO_MUCH else 0.0
         often = "once" if times == 1 else f"{times} times"
-        costs.append((marking.per_error * times + over, f"You {words} {often}: {_REMEDIES[words]}"))
+        costs.append((marking.per_error * times + over, f"You {words} {often}{_REMEDIES.get(words, '.')}"))
     costs.sort(key=lambda each: -each[0])
     return [words for cost, words in costs if cost > 0.1 * marking.expert_time] or [
         "Nothing cost you much. Try the next level, or be quicker with the same care."
     ]
 
 
-_SLOW = "Time cost you most: go straight from mark to mark, and look for the next while you finish this one."
+_SLOW = "Time cost you much: go straight from mark to mark, and look for the next while you finish this one."
 _REMEDIES = {
-    "used too much force": "come down slowly, and stop when the bar is at its mark.",
-    "pressed beside the mark": "go over the mark before you come down.",
-    "lifted off the line": "keep the bar from reaching zero.",
-    "left the line": "go slower where it bends.",
-    "worked on tissue that was not held down": "look at the holding hand's bar before you press.",
-    "took hold beside the mark": "go over the mark before you close the jaw.",
+    TOO_MUCH: ": come down slowly, and stop when the bar is at its mark.",
+    "pressed beside the mark": ": go over the mark before you come down.",
+    "lifted off the line": ": keep the bar from reaching zero.",
+    "pressed too hard on the line": ": press less where you move.",
+    "left the line": ": go slower where it bends.",
+    "worked on tissue that was not held down": ": look at the holding hand's bar before you press.",
+    "took hold beside the mark": ": go over the mark before you close the jaw.",
 }

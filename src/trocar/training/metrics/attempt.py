@@ -10,10 +10,10 @@ import numpy as np
 from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.simulation import DIRECTION, FORCE, OUTSIDE, RECORD, RECORD_ROLL, TIP, TOUCH, TOUCH_PRESENT
-from trocar.training.metrics.motion import SmoothPath, smooth_path
+from trocar.training.metrics.motion import SHORTEST, SmoothPath, smooth_path
 
 HANDS = ("left", "right")
-USED = 1e-3  # [m] an instrument whose tip went less far was not used
+USED = 5e-3  # [m] an instrument whose tip stayed within less was not used: a hand at rest trembles
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,9 +49,10 @@ class Attempt:
         """Tips of the instruments that were used [m]."""
         found = {}
         for hand, name in enumerate(HANDS):
-            if self.present[:, hand].sum() > 1:
+            here = self.times[self.present[:, hand]]
+            if len(here) > 1 and here[-1] - here[0] >= SHORTEST:
                 tip = self._of(hand, slice(TIP, TIP + 3))
-                if tip.length > USED:
+                if np.ptp(tip.places, axis=0).max() > USED:
                     found[name] = tip
         return found
 

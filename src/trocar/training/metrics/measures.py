@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import nan
+from math import isfinite, nan
 
 import numpy as np
 
@@ -83,6 +83,11 @@ def _worst(
 ) -> float:
     found = [of(tip) for tip in attempt.tips.values()]
     return worst(found) if found else nan
+
+
+def _least(values: list[float]) -> float:
+    """Return the least of the values that exist; nan where none does."""
+    return min((value for value in values if isfinite(value)), default=nan)
 
 
 def idle_time(attempt: Attempt) -> float:
@@ -164,14 +169,14 @@ MEASURES = (
         name="angular_path",
         unit="rad",
         formula="sum of the angles between successive shaft directions, and of |roll(i+1) - roll(i)|",
-        source="PMC5845064, table 2; roll added",
+        source="PMC5845064, table 2, which adds up roll, elevation and azimuth",
         cannot_tell="more than path length, where the task needs no roll",
         of=angular_path,
     ),
     Measure(
         name="economy_of_motion",
         unit="1",
-        formula="length of the task's shortest way over path length",
+        formula="length of the task's straight ways, seen from above, over path length; only of completed attempts",
         source="the definition of MIST-VR; others report the path length under this name",
         cannot_tell="anything beside path length: it is the same fact, made comparable between tasks",
         of=economy_of_motion,
@@ -196,7 +201,7 @@ MEASURES = (
         name="log_dimensionless_jerk",
         unit="1",
         formula="-ln(T^3/v_max^2 int |j|^2 dt), the lesser of both tips",
-        source="Balasubramanian et al. 2015",
+        source="Balasubramanian et al. 2015, with the jerk instead of the speed's second derivative",
         cannot_tell="anything that integrated jerk did not",
         of=lambda attempt: _worst(attempt, log_dimensionless_jerk, min),
     ),
@@ -206,7 +211,7 @@ MEASURES = (
         formula="median spectral arc length of the movements above 5 mm/s for 0.4 s, the lesser of both tips",
         source="Balasubramanian et al. 2015",
         cannot_tell="skill: descriptive only; over whole tasks it separates nobody",
-        of=lambda attempt: _worst(attempt, sparc_of_movements, lambda each: float(np.nanmin([0.0, *each]))),
+        of=lambda attempt: _worst(attempt, sparc_of_movements, _least),
     ),
     Measure(
         name="idle_time",

@@ -20,7 +20,7 @@ from trocar.model import FloatArray
 RATE = 100.0  # [Hz] of the motion that is measured
 CUTOFF, ORDER = 6.0, 4  # [Hz] of the Butterworth filter, and its order; run twice
 _PADDING = 0.5  # [s] by which the motion is continued beyond its ends, mirrored through them, for the filter
-_SHORTEST = 0.1  # [s]
+SHORTEST = 0.1  # [s]
 _FINER = 5  # points of an integral to a sample: between samples a derivative is a low polynomial
 
 
@@ -72,9 +72,9 @@ def smooth_path(times: FloatArray, places: FloatArray) -> SmoothPath:
     """
     at = np.asarray(times, dtype=np.float64)
     values = np.asarray(places, dtype=np.float64)
-    if len(at) < 2 or not at[-1] - at[0] >= _SHORTEST:
+    if len(at) < 2 or not at[-1] - at[0] >= SHORTEST:
         seconds = float(at[-1] - at[0]) if len(at) else 0.0
-        raise InputError("motion", f"at least {_SHORTEST:g} s", f"{seconds:g} s")
+        raise InputError("motion", f"at least {SHORTEST:g} s", f"{seconds:g} s")
     values = values.reshape(len(at), -1)
     if not (np.isfinite(at).all() and np.isfinite(values).all()):
         raise InputError("motion", "finite numbers alone", "one that is not")

@@ -39,8 +39,6 @@ class Progress:
         self.number = 0
         """Of the step that is on, from 0; as many as there are when all is done."""
         self.mistakes: list[Mistake] = []
-        self.over_limit = 0.0
-        """Time with a force above the task's limit [s]."""
         self._met_since: float | None = None
         self._begins = (
             True  # a step: what was right for the last one is no mistake in this, until it has ended
@@ -69,8 +67,6 @@ class Progress:
         if step is None:
             return
         too_much = max(moment.force(0), moment.force(1)) > self.task.force_limit
-        if too_much and self._last is not None:
-            self.over_limit += moment.time - self._last.time
         self._last = moment
         self._note(moment.time, TOO_MUCH if too_much else "")
         self._note(moment.time, step.mistake(moment), counts=not self._begins)

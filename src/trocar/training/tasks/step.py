@@ -133,9 +133,9 @@ class Follow:
 
     Attributes:
         hand: 0 left, 1 right.
-        curve: places x, y one after the other [m], closer to each other than half the width.
+        curve: places x, y one after the other [m], closer to each other than the width.
         to: number of the point to reach.
-        width: how far beside the curve a tip may go [m].
+        width: how near its points must be passed; twice as far beside the curve is a mistake [m].
         least, most: of the force [N].
     """
 
@@ -184,7 +184,9 @@ class Follow:
             return "lifted off the line"
         x, y, _ = moment.tip(self.hand)
         beside = np.hypot(*(np.array(self.curve) - (x, y)).T).min() > 2 * self.width
-        return "left the line" if beside else ""
+        if beside:
+            return "left the line"
+        return "pressed too hard on the line" if moment.force(self.hand) > self.most else ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -275,8 +277,10 @@ class Lift:
         return (Mark(place=self.place, radius=self.radius, hand=self.hand),)
 
     def met(self, moment: Moment) -> bool:
-        """Return whether the tissue is held, and high enough."""
-        return moment.holds(self.hand) and float(moment.tip(self.hand)[2]) >= self.height
+        """Return whether the tissue is held at the mark, high enough and not too hard."""
+        there = moment.holds(self.hand) and moment.away(self.hand, self.place) <= 2 * self.radius
+        high = float(moment.tip(self.hand)[2]) >= self.height
+        return there and high and moment.force(self.hand) <= self.most
 
     def hint(self, moment: Moment) -> str:
         """Return what is next."""

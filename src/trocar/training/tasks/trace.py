@@ -11,7 +11,7 @@ from trocar.training.tasks.task import Task
 
 _FROM, _TO, _MIDDLE, _SWING = 0.016, 0.046, 0.030, 0.008  # [m]
 _WAVES = 2.0
-_POINTS = 81
+_POINTS = 241
 _HAND = 1
 _LEAST = 0.004  # [N] that counts as touching
 
