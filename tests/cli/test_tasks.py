@@ -45,6 +45,35 @@ def test_a_scripted_trainee_prints_a_score_card(capsys):
     assert "not yet validated on people" in out
 
 
+def test_an_attempt_that_is_replayed_has_the_same_card(capsys, tmp_path):
+    out = tmp_path / "attempt.csv"
+    command = [
+        "train",
+        "--headless",
+        "--device",
+        "simulated",
+        "--task",
+        "trace",
+        "--skill",
+        "novice",
+        "--json",
+    ]
+    assert main([*command, "--out", str(out)]) == 0
+    card = json.loads(capsys.readouterr().out)
+    assert main(["replay", str(out), "--task", "trace", "--json"]) == 0
+    again = json.loads(capsys.readouterr().out)
+    assert again == {key: value for key, value in card.items() if key not in {"skill", "seed"}}
+    assert main(["replay", str(out), "--task", "palpate"]) == 0
+    assert "The attempt ended at step " in " ".join(capsys.readouterr().out.split())
+
+
+def test_what_cannot_be_replayed_is_refused(capsys, tmp_path):
+    (tmp_path / "none.csv").write_text("hello\n")
+    for file in ("none.csv", "missing.csv"):
+        assert main(["replay", str(tmp_path / file), "--task", "lift"]) == 2
+        assert file in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
@@ -59,6 +88,7 @@ def test_a_scripted_trainee_prints_a_score_card(capsys):
         (["--headless", "--device", "simulated", "--task", "lift", "--level", "0"], "level"),
         (["--task", "lift"], "--task is for --headless"),
         (["--json"], "--json is for --headless"),
+        (["--out", "attempt.csv"], "--out is for --headless"),
     ],
 )
 def test_what_does_not_go_together_is_refused(options, words, capsys):

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Mapping
 from math import isfinite
 from typing import TYPE_CHECKING
 
+import typer
 from rich import box
 from rich.console import Console
 from rich.table import Table
@@ -13,10 +16,22 @@ if TYPE_CHECKING:
     from trocar.training.session import Card
 
 
-def print_card(card: Card, pass_score: float) -> None:
-    """Print it for people: the score first, then what to do better, then the metrics, time first."""
+def print_card(
+    card: Card, pass_score: float, *, as_json: bool, besides: Mapping[str, object] | None = None
+) -> None:
+    """Print a card: for people the score first, then what to do better, then the metrics, time first.
+
+    Args:
+        card: what is printed.
+        pass_score: of its task.
+        as_json: as JSON alone.
+        besides: what JSON says of the attempt besides.
+    """
     from trocar.training.metrics.measures import MEASURES
 
+    if as_json:
+        typer.echo(json.dumps({**(besides or {}), **card.as_dict()}, indent=2, allow_nan=False))
+        return
     console = Console(highlight=False)
     verdict = "passed" if card.passed else "not passed"
     console.print(

@@ -45,6 +45,9 @@ def train(
         str | None, typer.Option(help="How well: expert or novice.", show_default="expert")
     ] = None,
     real_time: Annotated[bool, typer.Option("--real-time", help="No faster than a person.")] = False,
+    out: Annotated[
+        Path | None, typer.Option(help="Where the attempt's recording goes.", show_default=False)
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the score card as JSON alone.")] = False,
     recording: Annotated[
         Path | None, typer.Option(help="What the recorded device plays back.", show_default=False)
@@ -65,6 +68,7 @@ def train(
         "task": task,
         "level": level,
         "skill": skill,
+        "out": out,
         "real-time": real_time or None,
         "json": as_json or None,
     }
@@ -81,7 +85,11 @@ def train(
             raise typer.BadParameter("--headless needs --task; trocar tasks lists them")
         options = {"level": level, "skill": skill, "seed": seed}
         _attempt(
-            task, {name: value for name, value in options.items() if value is not None}, real_time, as_json
+            task,
+            {name: value for name, value in options.items() if value is not None},
+            out,
+            real_time,
+            as_json,
         )
         return
     for option in (option for option, given in attempted.items() if given is not None):
@@ -136,15 +144,14 @@ def _device(name: str, ports: str, **given: Any) -> Device | None:
     return device(name, **options)
 
 
-def _attempt(task: str, options: dict[str, Any], real_time: bool, as_json: bool) -> None:
+def _attempt(task: str, options: dict[str, Any], out: Path | None, real_time: bool, as_json: bool) -> None:
     """Let a scripted trainee do a task and print the score card."""
-    import json
-
     from rich.console import Console
     from rich.progress import Progress
 
     from trocar.cli.score_card import print_card
     from trocar.training.headless import attempt
+    from trocar.training.tape import write_attempt
 
     with Progress(console=Console(stderr=True), transient=True) as bar:
         work = bar.add_task(task, total=None)
@@ -154,11 +161,14 @@ def _attempt(task: str, options: dict[str, Any], real_time: bool, as_json: bool)
             watch=lambda time, limit: bar.update(work, completed=time, total=limit),
             **options,
         )
-    if as_json:
-        found = {"skill": done.skill, "seed": done.seed} | done.card.as_dict()
-        typer.echo(json.dumps(found, indent=2, allow_nan=False))
-    else:
-        print_card(done.card, done.task.marking.pass_score)
+    if out is not None:
+        write_attempt(out, done.recording)
+    print_card(
+        done.card,
+        done.task.marking.pass_score,
+        as_json=as_json,
+        besides={"skill": done.skill, "seed": done.seed},
+    )
 
 
 def _open(address: str) -> None:
