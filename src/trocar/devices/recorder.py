@@ -1,14 +1,18 @@
-"""Reads a device into the moments of a recording."""
+"""Reads a device into the moments of a recording, or into the table that a scene is played with."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain
 from math import floor, isfinite
 
-from trocar.devices.device import LEFT, RIGHT, Device, HandlePose
+import numpy as np
+
+from trocar.devices.device import LEFT, RIGHT, Device, HandlePose, Poses
 from trocar.devices.recording import LONGEST, Moment
 from trocar.errors import InputError
+from trocar.model import FloatArray
+from trocar.simulation import POSE
 
 FASTEST_RATE = 1000.0  # [Hz]; the servo's own
 
@@ -38,6 +42,20 @@ def moments_of(device: Device, *, seconds: float, rate: float) -> Iterator[Momen
             roll, jaw = round(pose.roll, _DECIMALS), round(pose.jaw, _DECIMALS)
             short = HandlePose(present=pose.present, handle=(x, y, z), roll=roll, jaw=jaw)
             yield Moment(time=round(time, _DECIMALS), instrument=instrument, pose=short)
+
+
+def pose_table(poses: Callable[[float], Poses], times: Sequence[float]) -> FloatArray:
+    """Return both poses at some times as a scene takes them, shape (n, 2, POSE).
+
+    Args:
+        poses: of both hands at a time [s].
+        times: [s].
+    """
+    table = np.zeros((len(times), 2, POSE))
+    for tick, time in enumerate(times):
+        for hand, pose in enumerate(poses(time)):
+            table[tick, hand] = (pose.present, *pose.handle, pose.roll, pose.jaw)
+    return table
 
 
 def thinned(moments: Iterable[Moment]) -> Iterator[Moment]:

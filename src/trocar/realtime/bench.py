@@ -21,6 +21,7 @@ import numpy.typing as npt
 from numba import njit
 
 from trocar.devices.device import Poses
+from trocar.devices.recorder import pose_table
 from trocar.errors import InputError, ServoError
 from trocar.model import FloatArray
 from trocar.realtime.clock import now
@@ -28,7 +29,7 @@ from trocar.realtime.empty_loop import run_empty
 from trocar.realtime.percentiles import BINS, DURATION, LATENESS, IntArray, quantile
 from trocar.realtime.physics import Physics, live
 from trocar.realtime.servo import Servo, ServoFlag
-from trocar.simulation import POSE, RECORD, TOUCH, TOUCH_TOUCHING
+from trocar.simulation import RECORD, TOUCH, TOUCH_TOUCHING
 
 Motion = Callable[[float], Poses]
 """Both poses at a time [s]."""
@@ -172,10 +173,7 @@ def work_alone(
     physics = physics or live()
     first = round(SETTLE / scene.dt)
     ticks = first + WORK_TICKS
-    poses = np.zeros((ticks, 2, POSE))
-    for tick in range(ticks):
-        for hand, pose in enumerate(motion(tick * scene.dt)):
-            poses[tick, hand] = (pose.present, *pose.handle, pose.roll, pose.jaw)
+    poses = pose_table(motion, [tick * scene.dt for tick in range(ticks)])
     records = np.zeros((2, RECORD))
     quickest = np.full(ticks, np.iinfo(np.int64).max)
     took = np.zeros(ticks, dtype=np.int64)

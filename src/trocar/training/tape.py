@@ -10,12 +10,11 @@ import os
 from collections.abc import Iterator
 from math import floor
 
-import numpy as np
-
 from trocar.devices.device import HandlePose
 from trocar.devices.recorded import RecordedDevice
+from trocar.devices.recorder import pose_table
 from trocar.devices.recording import Moment, write_recording
-from trocar.simulation import DT, HANDLE, JAW, POSE, PRESENT, ROLL
+from trocar.simulation import DT, HANDLE, JAW, PRESENT, ROLL
 from trocar.training.session import Recording
 
 
@@ -43,11 +42,8 @@ def read_attempt(path: str | os.PathLike[str], *, dt: float = DT) -> Recording:
     ticks = max(
         floor(device.duration / dt + 1e-6), 1
     )  # a whole number of ticks may come out a rounding short
-    poses = np.zeros((ticks, 2, POSE))
-    for tick in range(ticks):
-        for hand, pose in enumerate(device.poses((tick + 1) * dt)):
-            poses[tick, hand] = (pose.present, *pose.handle, pose.roll, pose.jaw)
-    return Recording(poses=poses, dt=dt)
+    times = [(tick + 1) * dt for tick in range(ticks)]
+    return Recording(poses=pose_table(device.poses, times), dt=dt)
 
 
 def _moments(recording: Recording) -> Iterator[Moment]:

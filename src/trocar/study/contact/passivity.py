@@ -12,7 +12,7 @@ from trocar.study.contact.energy import energies_along, energy_forms
 from trocar.study.contact.scenes import SIZE, Setting
 from trocar.study.contact.trajectories import KINDS, random_poses
 
-ROUNDING = 1e-8  # of what is stored: six digits above what rounding may add up to in a trajectory
+ROUNDING = 1e-8  # of what is stored: well above what rounding adds up to in a trajectory, some 1e-10
 
 
 @dataclass(frozen=True, kw_only=True)

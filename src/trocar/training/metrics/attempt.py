@@ -7,12 +7,12 @@ from functools import cached_property
 
 import numpy as np
 
+from trocar.contact.instrument import NAMES
 from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.simulation import DIRECTION, FORCE, OUTSIDE, RECORD, RECORD_ROLL, TIP, TOUCH, TOUCH_PRESENT
 from trocar.training.metrics.motion import SHORTEST, SmoothPath, smooth_path
 
-HANDS = ("left", "right")
 USED = 5e-3  # [m] an instrument whose tip stayed within less was not used: a hand at rest trembles
 
 
@@ -33,7 +33,7 @@ class Attempt:
     ideal_length: float = float("nan")
 
     def __post_init__(self) -> None:
-        wanted = (len(self.times), len(HANDS), RECORD)
+        wanted = (len(self.times), len(NAMES), RECORD)
         if self.records.shape != wanted:
             raise InputError("attempt: records", f"shape {wanted}", self.records.shape)
         if not self.present.any():
@@ -48,7 +48,7 @@ class Attempt:
     def tips(self) -> dict[str, SmoothPath]:
         """Tips of the instruments that were used [m]."""
         found = {}
-        for hand, name in enumerate(HANDS):
+        for hand, name in enumerate(NAMES):
             here = self.times[self.present[:, hand]]
             if len(here) > 1 and here[-1] - here[0] >= SHORTEST:
                 tip = self._of(hand, slice(TIP, TIP + 3))
@@ -58,7 +58,7 @@ class Attempt:
 
     def of_used(self, columns: slice) -> dict[str, SmoothPath]:
         """Return columns of the records, filtered, of the instruments that were used."""
-        return {name: self._of(HANDS.index(name), columns) for name in self.tips}
+        return {name: self._of(NAMES.index(name), columns) for name in self.tips}
 
     @property
     def forces(self) -> FloatArray:
