@@ -1,4 +1,4 @@
-"""The servo's loop, compiled whole: wait until due, read, follow, step, guard, publish.
+"""The servo's loop, compiled whole: wait until due, read, follow, step, guard, publish, leave a trail.
 
 Nothing in it allocates, locks, logs or asks Python. A tick that is done later than one period after it was due has
 cost the due times that passed meanwhile: they are skipped and counted, never made good in a burst, so the tissue's
@@ -65,7 +65,8 @@ from trocar.realtime.shared import (
     read,
     records_of,
 )
-from trocar.realtime.tracking import Following, TrackState, absent, aim, follow
+from trocar.realtime.tracking import Following, TrackState, absent, aim, arrive, follow
+from trocar.realtime.trail import leave
 from trocar.simulation import HANDLE, HANDLE_FORCE, PRESENT
 
 IntArray = npt.NDArray[np.int64]
@@ -188,6 +189,7 @@ def serve(
     words = work.state.words
     signals = shared.signals
     resets = signals[RESETS]
+    begins = True
     due = now() + period
     heard = due
     while True:
@@ -213,6 +215,7 @@ def serve(
             come_to_rest(scene, state)
             forget(work.guard)
             fault = False
+            begins = True
         if read(shared.command, work.command):
             for hand in range(2):
                 writes = work.command.words[WRITES + hand]
@@ -225,6 +228,8 @@ def serve(
                         refused_at = woke
         if woke - refused_at < SECOND:
             flags |= POSE_REFUSED
+        if begins:
+            arrive(work.track)
         for hand in range(2):
             if follow(following, work.track, hand, dt):
                 flags |= HURRIED
@@ -264,6 +269,8 @@ def serve(
         words[RESETS_DONE] = resets
         words[PUBLISHED] = now()
         publish(work.state, shared.state)
+        leave(shared.trail, begins, missed, work.track, work.records)
+        begins = False
 
         ended = now()
         late = (ended - due) // period

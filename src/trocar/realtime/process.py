@@ -84,6 +84,7 @@ def _ready(orders: Orders, shared: Shared) -> Any:
     )
     settings = Settings(period=orders.period, parent=orders.parent, allowed=0)
     arguments = (*functions, scene, state, shared, work, settings, orders.following, orders.limits)
+    shared.trail.rows[:] = 0.0  # every page of it is there before the first tick
     loop = with_own_cache(serve, orders.physics)
     compiled(loop, tuple(typeof(argument) for argument in arguments))
     settings = settings._replace(allowed=claim(scheduled=orders.scheduled))

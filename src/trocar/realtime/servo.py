@@ -254,7 +254,7 @@ class Servo:
         self._shared.signals[shared.BEAT] = now()
 
     def reset(self) -> None:
-        """Put the tissue to rest and forget faults, at the next tick; instruments stay where they are."""
+        """Put the tissue to rest and forget faults, at the next tick; instruments are where their poses say."""
         with self._lock:
             self._shared.signals[shared.RESETS] += 1
 
@@ -297,6 +297,17 @@ class Servo:
             amplitudes=_frozen(field.reals.reshape(self._shape)),
             amplitudes_tick=int(field.words[0]),
         )
+
+    @property
+    def trail(self) -> shared.Trail:
+        """What the newest ticks did (`trail.read_trail`), of this start of the servo; kept while it is referred to."""
+        return self._shared.trail
+
+    @property
+    def following(self) -> Following:
+        """How poses are followed."""
+        following: Following = self._orders["following"]
+        return following
 
     def histograms(self) -> npt.NDArray[np.int64]:
         """Return how many ticks took how long and began how late since the start (`percentiles`), (2, BINS)."""

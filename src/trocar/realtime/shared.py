@@ -12,6 +12,10 @@ times, and then keeps what it had. Fences make it hold on any processor.
 | field | servo, every fourth tick | the tick it shows | amplitudes |
 
 Signals are single words outside the locks: each is written whole. So are the counts of `totals`, which only grow.
+
+The trail is what the newest ticks consumed and what came of it, a row a tick in a ring: the servo writes a row and
+then counts it; a reader copies rows that were counted, looks again how far the servo is, and leaves out what may have
+been written over meanwhile (`trail`).
 """
 
 from __future__ import annotations
@@ -40,6 +44,12 @@ TIME, RATE, P50, P99, P999, LATE_P50, LATE_P99, FIGURES = 0, 1, 2, 3, 4, 5, 6, 7
 # Signals: when the parent last lived [ns], how many resets it has asked for, not 0 when the servo is to end.
 BEAT, RESETS, STOP = 0, 1, 2
 
+# Columns of the trail: whether a tick began from rest, ticks missed before it, poses as they came and as they were
+# followed, records.
+BEGAN, MISSED_BEFORE, TARGETS, FOLLOWED, RECORDS = 0, 1, 2, 2 + 2 * POSE, 2 + 4 * POSE
+TRAIL = RECORDS + 2 * RECORD
+TRAIL_TICKS = 16384  # kept: whoever reads has so many milliseconds
+
 READER_TRIES = 64
 _LINE = 64  # bytes that processors hand over at a time; each part has lines of its own
 
@@ -52,6 +62,18 @@ class Area(NamedTuple):
     reals: FloatArray
 
 
+class Trail(NamedTuple):
+    """What the newest ticks did.
+
+    Attributes:
+        written: ticks written since the start, shape (1,).
+        rows: tick t is in row t modulo TRAIL_TICKS, from 0; shape (TRAIL_TICKS, TRAIL).
+    """
+
+    written: IntArray
+    rows: FloatArray
+
+
 class Shared(NamedTuple):
     """The block, laid out."""
 
@@ -60,6 +82,7 @@ class Shared(NamedTuple):
     field: Area
     signals: IntArray
     totals: IntArray
+    trail: Trail
 
 
 def allocate(field_shape: FieldShape) -> Any:
@@ -75,13 +98,14 @@ def view(block: Any, field_shape: FieldShape) -> Shared:
     for count in _counts(field_shape):
         parts.append(memory[place : place + 8 * count])
         place += _padded(count)
-    views = [part.view(kind) for part, kind in zip(parts, (int, int, float) * 3 + (int, int), strict=True)]
+    views = [part.view(kind) for part, kind in zip(parts, _KINDS, strict=True)]
     return Shared(
         command=Area(*views[0:3]),
         state=Area(*views[3:6]),
         field=Area(*views[6:9]),
         signals=views[9],
         totals=views[10].reshape(2, BINS),
+        trail=Trail(written=views[11], rows=views[12].reshape(TRAIL_TICKS, TRAIL)),
     )
 
 
@@ -144,7 +168,10 @@ def _counts(field_shape: FieldShape) -> tuple[int, ...]:
     command = (1, WRITES + 2, 2 * POSE)
     state = (1, CONSUMED + 2, FIGURES + 2 * RECORD + 2 * 3)
     field = (1, 1, int(np.prod(field_shape)))
-    return (*command, *state, *field, STOP + 1, 2 * BINS)
+    return (*command, *state, *field, STOP + 1, 2 * BINS, 1, TRAIL_TICKS * TRAIL)
+
+
+_KINDS = (int, int, float) * 3 + (int, int) + (int, float)
 
 
 def _padded(count: int) -> int:

@@ -15,6 +15,7 @@ from math import exp, isfinite, sqrt
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 from numba import njit
 
 from trocar.model import FloatArray
@@ -93,6 +94,13 @@ def aim(state: TrackState, hand: int, pose: FloatArray) -> bool:  # pragma: no c
 
 
 @njit(cache=True, nogil=True)
+def arrive(state: TrackState) -> None:  # pragma: no cover - compiled
+    """Put both instruments where their poses say, standing still: what follows owes nothing to what was."""
+    state.pose[:] = state.target
+    state.velocity[:] = 0.0
+
+
+@njit(cache=True, nogil=True)
 def follow(
     following: Following, state: TrackState, hand: int, period: float
 ) -> bool:  # pragma: no cover - compiled
@@ -134,3 +142,31 @@ def follow(
         pose[JAW] = min(max(pose[JAW], 0.0), 1.0)
         velocity[JAW] = 0.0
     return share < 1.0
+
+
+@njit(cache=True, nogil=True)
+def follow_again(
+    following: Following,
+    state: TrackState,
+    targets: FloatArray,
+    began: npt.NDArray[np.bool_],
+    period: float,
+    poses: FloatArray,
+) -> None:  # pragma: no cover - compiled
+    """Follow poses once more as the servo did, tick by tick.
+
+    Args:
+        following: how.
+        state: of the instruments, overwritten.
+        targets: newest good poses in each tick, shape (n, 2, POSE).
+        began: whether a tick began from rest, shape (n,).
+        period: of a tick [s].
+        poses: overwritten with where the instruments were, shape (n, 2, POSE).
+    """
+    for tick in range(len(targets)):
+        state.target[:] = targets[tick]
+        if began[tick]:
+            arrive(state)
+        for hand in range(2):
+            follow(following, state, hand, period)
+            poses[tick, hand, :] = state.pose[hand]
