@@ -38,16 +38,25 @@ class Recording:
     Attributes:
         poses: of both handles as the scene consumed them, shape (n, 2, POSE).
         dt: length of a tick [s].
+        resets: numbers of the ticks, from 0, before which the tissue was put to rest once more.
+        skipped: ticks that a servo missed meanwhile; the tissue's time stood still for them.
     """
 
     poses: FloatArray
     dt: float = DT
+    resets: tuple[int, ...] = ()
+    skipped: int = 0
 
     def __post_init__(self) -> None:
         if self.poses.ndim != 3 or self.poses.shape[1:] != (2, POSE):
             raise InputError("recording: poses", f"shape (n, 2, {POSE})", self.poses.shape)
         if not np.isfinite(self.poses).all():
             raise InputError("recording: poses", "finite numbers alone", "one that is not")
+
+    def played(self, scene: Scene) -> FloatArray:
+        """Return the records of both instruments in every tick, from rest, shape (n, 2, RECORD)."""
+        stretches = np.split(self.poses, list(self.resets))
+        return np.concatenate([played(scene, stretch) for stretch in stretches])
 
     @property
     def times(self) -> FloatArray:
@@ -145,7 +154,7 @@ def assess(task: Task, recording: Recording) -> Card:
     scene = scene_of(task)
     if recording.dt != scene.dt:
         raise InputError("recording: dt", f"{scene.dt:g} s, the scene's tick", f"{recording.dt:g} s")
-    records, times = played(scene, recording.poses), recording.times
+    records, times = recording.played(scene), recording.times
     progress = Progress(task)
     ticks = 0  # what comes after the last step is nobody's business
     for time, both in zip(times, records, strict=True):

@@ -99,9 +99,7 @@ def joined(pieces: Iterable[Piece]) -> Piece:
     """Return pieces as one."""
     every = list(pieces)
     if not every:
-        return Piece(
-            targets=np.zeros((0, 2, POSE)), began=np.zeros(0, bool), skipped=np.zeros(0, np.int64)
-        )
+        return Piece(targets=np.zeros((0, 2, POSE)), began=np.zeros(0, bool), skipped=np.zeros(0, np.int64))
     return Piece(
         targets=np.concatenate([piece.targets for piece in every]),
         began=np.concatenate([piece.began for piece in every]),

@@ -14,6 +14,7 @@ from trocar.contact.instrument import NAMES
 from trocar.training.tasks.moment import Moment
 
 Place = tuple[float, float]
+Band = tuple[float, float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,6 +53,10 @@ class Step(Protocol):
     @property
     def marks(self) -> tuple[Mark, ...]:
         """Where."""
+        ...
+
+    def band(self, hand: int) -> Band | None:
+        """Return the least and the most force it asks of a hand [N]; None where it asks for none."""
         ...
 
     def met(self, moment: Moment) -> bool:
@@ -104,6 +109,10 @@ class Press:
     def marks(self) -> tuple[Mark, ...]:
         """The place."""
         return (Mark(place=self.place, radius=self.radius, hand=self.hand),)
+
+    def band(self, hand: int) -> Band | None:
+        """Return the least and the most force it asks of a hand [N]."""
+        return (self.least, self.most) if hand == self.hand else None
 
     def met(self, moment: Moment) -> bool:
         """Return whether the tip presses there, neither too softly nor too hard."""
@@ -165,6 +174,10 @@ class Follow:
         """The rest of the curve."""
         return tuple(Mark(place=place, radius=self.width, hand=self.hand) for place in self.curve[self.to :])
 
+    def band(self, hand: int) -> Band | None:
+        """Return the least and the most force it asks of a hand [N]."""
+        return (self.least, self.most) if hand == self.hand else None
+
     def met(self, moment: Moment) -> bool:
         """Return whether the point is reached, by a tip that touches."""
         near = moment.away(self.hand, self.curve[self.to]) <= self.width
@@ -221,6 +234,10 @@ class Together:
         """Both."""
         return self.base.marks + self.step.marks
 
+    def band(self, hand: int) -> Band | None:
+        """Return the least and the most force it asks of a hand [N]."""
+        return self.step.band(hand) or self.base.band(hand)
+
     def met(self, moment: Moment) -> bool:
         """Return whether both hands do theirs."""
         return self.base.met(moment) and self.step.met(moment)
@@ -276,6 +293,10 @@ class Lift:
         """The place."""
         return (Mark(place=self.place, radius=self.radius, hand=self.hand),)
 
+    def band(self, hand: int) -> Band | None:
+        """Return the least and the most force it asks of a hand [N]."""
+        return (0.0, self.most) if hand == self.hand else None
+
     def met(self, moment: Moment) -> bool:
         """Return whether the tissue is held at the mark, high enough and not too hard."""
         there = moment.holds(self.hand) and moment.away(self.hand, self.place) <= 2 * self.radius
@@ -321,6 +342,10 @@ class LetGo:
     def marks(self) -> tuple[Mark, ...]:
         """None."""
         return ()
+
+    def band(self, hand: int) -> Band | None:
+        """Return nothing: it asks for no force."""
+        return None
 
     def met(self, moment: Moment) -> bool:
         """Return whether the tip is free."""
