@@ -24,8 +24,8 @@ from websockets.exceptions import ConnectionClosed
 
 from trocar.devices.simulated import SimulatedDevice
 from trocar.web.closing import Closing
-from trocar.web.prepare import prepare
 from trocar.web.serve import serving
+from trocar.web.stage import set_stage
 from trocar.web.trainer import Trainer
 from trocar.web.wire import encode_pose
 from web.scripted_source import rest_pose
@@ -111,7 +111,7 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=10.0, help="of each round")
     parser.add_argument("--rounds", type=int, default=3, help="battered; one more is quiet")
     arguments = parser.parse_args()
-    trainer = prepare("skin", device=SimulatedDevice("press"))
+    trainer = Trainer(set_stage("skin"), device=SimulatedDevice("press"))
     trainer.open()
     sums = {"quiet": [0, 0, 0], "battered": [0, 0, 0]}
     try:

@@ -20,9 +20,9 @@ from trocar.realtime.bench import alternate
 from trocar.realtime.servo import Servo
 from trocar.realtime.sliding import sliding_contact
 from trocar.web.messages import Hello, Notice
-from trocar.web.prepare import prepare
 from trocar.web.serve import serving
 from trocar.web.source import Pose, Snapshot
+from trocar.web.stage import set_stage
 from trocar.web.trainer import Trainer
 
 TISSUE = "skin"
@@ -90,7 +90,7 @@ def main() -> int:
     with ExitStack() as stack:
         source = None
         if arguments.browser:
-            source = Attended(prepare(TISSUE))
+            source = Attended(Trainer(set_stage(TISSUE)))
             served = stack.enter_context(serving(source))
             try:
                 page = stack.enter_context(chromium()).new_page()

@@ -14,8 +14,9 @@ from trocar.devices.simulated import SimulatedDevice
 from trocar.errors import InputError
 from trocar.simulation.live import LIVE_SIZE
 from trocar.web.messages import Hello
-from trocar.web.prepare import prepare
 from trocar.web.source import LEFT, RIGHT, Pose, Status, Touch
+from trocar.web.stage import set_stage
+from trocar.web.trainer import Trainer
 from web.visitor import until
 
 LEFT_HAND, RIGHT_HAND = default_instruments(LIVE_SIZE)
@@ -44,7 +45,7 @@ def living(trainer):
 
 @pytest.fixture(scope="module")
 def trainer():
-    with living(prepare("skin")) as opened:
+    with living(Trainer(set_stage("skin"))) as opened:
         yield opened
 
 
@@ -160,7 +161,7 @@ def test_a_killed_servo_gives_no_force_is_told_of_and_comes_back(trainer, hands)
 
 def test_simulated_hands_move_by_themselves_and_the_page_cannot_interfere():
     device = SimulatedDevice("press")
-    with living(prepare("skin", device=device)) as trainer:
+    with living(Trainer(set_stage("skin"), device=device)) as trainer:
         assert trainer.hello().steered_by == "trainer"
         pushed = Pose(
             instrument=RIGHT,
@@ -186,4 +187,17 @@ def test_simulated_hands_move_by_themselves_and_the_page_cannot_interfere():
 )
 def test_what_does_not_go_together_is_refused_at_once(arguments, words):
     with pytest.raises(InputError, match=words):
-        prepare(**arguments)
+        set_stage(**arguments)
+
+
+def test_another_stage_is_entered_with_its_own_ports(trainer):
+    before, first = trainer.hello(), trainer.servo
+    trainer.enter(set_stage("skin", ports="oblique"))
+    try:
+        assert trainer.hello().instruments[0].port_m != before.instruments[0].port_m
+        assert not first.alive
+        assert trainer.servo.alive
+        until(lambda: Status.ALIVE in trainer.latest().status, PATIENCE)
+    finally:
+        trainer.enter(set_stage("skin"))
+    assert trainer.hello() == before

@@ -28,11 +28,12 @@ def stream(
     import numpy as np
 
     from trocar.web.latency import stream_latency
-    from trocar.web.prepare import prepare
+    from trocar.web.stage import set_stage
+    from trocar.web.trainer import Trainer
 
     log = Console(stderr=True, highlight=False)
     with log.status("starting a trainer ..."):
-        trainer = prepare(tissue)
+        trainer = Trainer(set_stage(tissue))
         try:
             trainer.open()
             found = stream_latency(trainer, seconds=seconds)

@@ -97,16 +97,15 @@ def train(
 
     from rich.console import Console
 
-    from trocar.web.prepare import prepare
     from trocar.web.serve import check_address, serve
+    from trocar.web.stage import set_stage
+    from trocar.web.trainer import Trainer
 
     hands = _device(device, ports, script=script, seed=seed, recording=recording)
     check_address(listen, cert, key)
     log = Console(stderr=True, highlight=False)
-    with log.status("") as status:
-        trainer = prepare(
-            tissue, ports=ports, model=model, device=hands, watch=lambda text: status.update(f"{text} ...")
-        )
+    with log.status("laying the tissue and its waves out ...") as status:
+        trainer = Trainer(set_stage(tissue, ports=ports, model=model), device=hands)
         try:
             status.update("starting the servo; the first time its code is compiled, a minute or so ...")
             trainer.open()

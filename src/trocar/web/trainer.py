@@ -14,35 +14,18 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import Any
 
-import numpy as np
-
-from trocar.contact.instrument import Instrument, Vector
 from trocar.devices.device import Device, HandlePose
 from trocar.devices.web import WebDevice
 from trocar.errors import TrocarError
-from trocar.model import FloatArray
 from trocar.realtime.servo import Servo, ServoFlag, ServoState
-from trocar.simulation import (
-    DEPTH,
-    DIRECTION,
-    FORCE,
-    RECORD_JAW,
-    RECORD_ROLL,
-    TIP,
-    TOUCH,
-    Scene,
-    SceneState,
-)
-from trocar.simulation.surface import Surface
-from trocar.tissues.tissue import Tissue
-from trocar.web.messages import Camera, Hello, InstrumentShape, LayerSize, Notice, TissueSize
-from trocar.web.source import InstrumentState, Pose, Snapshot, Status, Touch
+from trocar.simulation import at_rest
+from trocar.web.messages import Hello, Notice
+from trocar.web.source import Pose, Snapshot, Status
+from trocar.web.stage import Stage
 
-GRID = (64, 64)
 SMOOTHING = 8e-3  # [s] by which instruments follow poses that come at a display's rate
 _DEVICE_PERIOD = 4e-3  # [s] between poses of a device of the trainer's own
 _RESTARTS = 3  # of a servo that died
-_CAMERA_BACK, _CAMERA_UP = 0.1, 0.11  # [m] from the middle of the block
 _MOST_SEQUENCE = 2**32 - 1
 _QUIET = 5.0  # [s] before the same sentence is said again
 
@@ -59,44 +42,25 @@ class Trainer:
     """A tissue, two instruments and what moves them, as the stream wants them.
 
     Args:
-        tissue: the layers.
-        size: sides of the block [m].
-        scene: the scene made of them.
-        at_rest: its state at rest.
-        instruments: left and right.
-        linear_force: up to this force the tissue's answer is trusted as linear [N].
+        stage: what the page is shown of, at first.
         device: what moves the instruments; the page's hands if not given.
-        grid: nodes of the surface along x and y.
     """
 
-    def __init__(
-        self,
-        *,
-        tissue: Tissue,
-        size: tuple[float, float],
-        scene: Scene,
-        at_rest: SceneState,
-        instruments: tuple[Instrument, Instrument],
-        linear_force: float,
-        device: Device | None = None,
-        grid: tuple[int, int] = GRID,
-    ) -> None:
-        self._device = WebDevice(instruments=instruments) if device is None else device
-        self._linear_force = linear_force
-        self._surface = Surface(scene, tissue, size=size, grid=grid)
-        self._hello = _greeting(
-            tissue, size, scene, instruments, linear_force, grid, by_page=self._device.steered_by_page
-        )
-        self._servo = Servo(scene, at_rest, smoothing=SMOOTHING)
+    def __init__(self, stage: Stage, *, device: Device | None = None) -> None:
+        self._device = WebDevice(instruments=stage.instruments) if device is None else device
+        self._stage = stage
+        self._hello = stage.hello(by_page=self._device.steered_by_page)
+        self._servo = _servo_of(stage)
         self._notices: deque[Notice] = deque(maxlen=16)
         self._said: dict[str, float] = {}
         self._seen = ServoFlag(0)
         self._restarts = 0
         self._restarting: threading.Thread | None = None
+        self._changing = threading.Lock()  # of the stage, one change at a time
         self._ended = threading.Event()
         self._began: float | None = None  # when the device's time began: with the first page
         self._driving: threading.Thread | None = None
-        self._shown: tuple[tuple[int, int], Snapshot] | None = None
+        self._shown: tuple[tuple[Servo, int, int], Snapshot] | None = None
 
     def open(self) -> None:
         """Start the servo and the device; wait until the tissue ticks.
@@ -129,6 +93,27 @@ class Trainer:
         """What moves the tissue."""
         return self._servo
 
+    @property
+    def stage(self) -> Stage:
+        """What the page is shown of."""
+        return self._stage
+
+    def enter(self, stage: Stage) -> None:
+        """Show another stage from now on; it takes as long as a servo takes to start.
+
+        Raises:
+            TrocarError: its servo could not be started; all stays as it was.
+        """
+        with self._changing:
+            servo = _servo_of(stage)
+            servo.start()
+            before, self._servo = self._servo, servo
+            self._stage = stage
+            self._hello = stage.hello(by_page=self._device.steered_by_page)
+            before.close()
+            if self._ended.is_set():
+                servo.close()
+
     def hello(self) -> Hello:
         """Return what never changes; a device of the trainer's own begins with the first page that asks."""
         if self._began is None:
@@ -137,8 +122,9 @@ class Trainer:
 
     def latest(self) -> Snapshot:
         """Return the newest state, whole."""
-        state = self._servo.latest()
-        key = (state.tick, state.amplitudes_tick)
+        servo = self._servo
+        state = servo.latest()
+        key = (servo, state.tick, state.amplitudes_tick)
         if self._shown is not None and self._shown[0] == key and state.age < 0.05:
             return self._shown[1]
         snapshot = self.snapshot_of(state)
@@ -155,25 +141,19 @@ class Trainer:
         silent = not state.alive or state.age >= 0.05
         if silent or ServoFlag.UNHEARD in state.flags or ServoFlag.FAULT in state.flags:
             status |= Status.FORCES_CUT
-        forces = np.linalg.norm(state.records[:, FORCE : FORCE + 3], axis=1)
-        if forces.max() > self._linear_force:
-            status |= Status.BEYOND_LINEAR
         self._tell_of(state.flags)
-        left, right = (
-            _instrument(record, force) for record, force in zip(state.records, state.hand_forces, strict=True)
-        )
-        return Snapshot(
+        return self._stage.snapshot(
+            state.records,
+            state.amplitudes,
             tick=state.tick,
             time=state.time,
+            status=status,
+            hand_forces=state.hand_forces,
             pose_sequence=(state.sequences[0] & _MOST_SEQUENCE, state.sequences[1] & _MOST_SEQUENCE),
             rate=state.rate,
             missed_ticks=state.missed,
             tick_p50=state.tick_p50,
             tick_p99=state.tick_p99,
-            status=status,
-            instruments=(left, right),
-            heights=self._surface.heights(state.amplitudes, state.records),
-            in_plane=self._surface.in_plane(state.records),
         )
 
     def pose(self, instrument: int, pose: Pose, /) -> None:
@@ -243,7 +223,8 @@ class Trainer:
 
     def _restart(self) -> None:
         try:
-            self._servo.restart()
+            with self._changing:
+                self._servo.restart()
         except TrocarError as error:
             self._say("warning", f"{error}.")
         else:
@@ -263,56 +244,5 @@ class Trainer:
             self._notices.append(Notice(level=level, text=text))
 
 
-def _greeting(
-    tissue: Tissue,
-    size: tuple[float, float],
-    scene: Scene,
-    instruments: tuple[Instrument, Instrument],
-    linear_force: float,
-    grid: tuple[int, int],
-    *,
-    by_page: bool,
-) -> Hello:
-    middle = (size[0] / 2, size[1] / 2, 0.0)
-    return Hello(
-        tissue=TissueSize(
-            name=tissue.name,
-            size_m=size,
-            layers=tuple(LayerSize(name=layer.name, thickness_m=layer.thickness) for layer in tissue.layers),
-        ),
-        grid=grid,
-        instruments=tuple(_shape(instrument) for instrument in instruments),
-        camera=Camera(port_m=(middle[0], middle[1] - _CAMERA_BACK, _CAMERA_UP), target_m=middle),
-        linear_force_n=linear_force,
-        rate_hz=round(1 / scene.dt, 6),
-        steered_by="page" if by_page else "trainer",
-    )
-
-
-def _shape(instrument: Instrument) -> InstrumentShape:
-    return InstrumentShape(
-        name="left" if instrument.name == "left" else "right",
-        port_m=instrument.port,
-        length_m=instrument.length,
-        shaft_radius_m=instrument.shaft_radius,
-        tip=instrument.tip.value,
-        handle_m=instrument.handle,
-    )
-
-
-def _instrument(record: FloatArray, hand_force: FloatArray) -> InstrumentState:
-    return InstrumentState(
-        tip=_vector(record[TIP : TIP + 3]),
-        direction=_vector(record[DIRECTION : DIRECTION + 3]),
-        roll=float(record[RECORD_ROLL]),
-        jaw=float(record[RECORD_JAW]),
-        force=_vector(record[FORCE : FORCE + 3]),
-        handle_force=_vector(hand_force),
-        touch=Touch(int(record[TOUCH])),
-        depth=float(record[DEPTH]),
-    )
-
-
-def _vector(values: FloatArray) -> Vector:
-    x, y, z = values.tolist()
-    return x, y, z
+def _servo_of(stage: Stage) -> Servo:
+    return Servo(stage.scene, at_rest(stage.scene), smoothing=SMOOTHING)

@@ -1,0 +1,195 @@
+"""What a page is shown of: a tissue, two instruments and the scene made of them, and how a state of it looks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from trocar.contact.instrument import Instrument, Vector
+from trocar.contact.port_sets import instruments_through
+from trocar.errors import InputError
+from trocar.model import FloatArray, Press, Support
+from trocar.simulation import (
+    DEPTH,
+    DIRECTION,
+    FORCE,
+    RECORD_JAW,
+    RECORD_ROLL,
+    TIP,
+    TOUCH,
+    Scene,
+    make_scene,
+)
+from trocar.simulation.live import LIVE_MODELS, LIVE_SIZE, live_model
+from trocar.simulation.surface import Surface
+from trocar.study.linear_range import linear_range
+from trocar.tissues.catalogue import tissue as preset
+from trocar.tissues.tissue import Tissue
+from trocar.waves.solid import WaveSolid
+from trocar.web.messages import Camera, Hello, InstrumentShape, LayerSize, TissueSize
+from trocar.web.source import InstrumentState, Snapshot, Status, Touch
+
+GRID = (64, 64)
+_CAMERA_BACK, _CAMERA_UP = 0.1, 0.11  # [m] from the middle of the block
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stage:
+    """A scene and what belongs to its picture.
+
+    Attributes:
+        tissue: the layers.
+        size: sides of the block [m].
+        scene: made of them.
+        instruments: left and right.
+        linear_force: up to this force the tissue's answer is trusted as linear [N].
+        grid: nodes of the surface along x and y.
+    """
+
+    tissue: Tissue
+    size: tuple[float, float]
+    scene: Scene = field(repr=False)
+    instruments: tuple[Instrument, Instrument]
+    linear_force: float
+    grid: tuple[int, int] = GRID
+
+    @cached_property
+    def _surface(self) -> Surface:
+        return Surface(self.scene, self.tissue, size=self.size, grid=self.grid)
+
+    def hello(self, *, by_page: bool) -> Hello:
+        """Return what a page must know to draw it.
+
+        Args:
+            by_page: whether the page's hands move the instruments.
+        """
+        middle = (self.size[0] / 2, self.size[1] / 2, 0.0)
+        return Hello(
+            tissue=TissueSize(
+                name=self.tissue.name,
+                size_m=self.size,
+                layers=tuple(
+                    LayerSize(name=layer.name, thickness_m=layer.thickness) for layer in self.tissue.layers
+                ),
+            ),
+            grid=self.grid,
+            instruments=tuple(_shape(instrument) for instrument in self.instruments),
+            camera=Camera(port_m=(middle[0], middle[1] - _CAMERA_BACK, _CAMERA_UP), target_m=middle),
+            linear_force_n=self.linear_force,
+            rate_hz=round(1 / self.scene.dt, 6),
+            steered_by="page" if by_page else "trainer",
+        )
+
+    def snapshot(
+        self,
+        records: FloatArray,
+        amplitudes: FloatArray,
+        *,
+        tick: int,
+        time: float,
+        status: Status,
+        hand_forces: FloatArray | None = None,
+        pose_sequence: tuple[int, int] = (0, 0),
+        rate: float = 0.0,
+        missed_ticks: int = 0,
+        tick_p50: float = 0.0,
+        tick_p99: float = 0.0,
+    ) -> Snapshot:
+        """Return a state of the scene as a page is shown it; the rest as in `Snapshot`.
+
+        Args:
+            records: of both instruments, shape (2, RECORD).
+            amplitudes: of the waves [m], shape (layers, M, N).
+            tick: ticks since the start.
+            time: the tissue's [s].
+            status: how what moves it fares.
+            hand_forces: what the hands feel [N], shape (2, 3); nothing if not given.
+            pose_sequence: the poses followed.
+            rate: ticks achieved in a second [Hz].
+            missed_ticks: since the start.
+            tick_p50: median duration of a tick [s].
+            tick_p99: 99th percentile of it [s].
+        """
+        forces = np.linalg.norm(records[:, FORCE : FORCE + 3], axis=1)
+        if forces.max() > self.linear_force:
+            status |= Status.BEYOND_LINEAR
+        felt = np.zeros((2, 3)) if hand_forces is None else hand_forces
+        left, right = (_instrument(record, force) for record, force in zip(records, felt, strict=True))
+        return Snapshot(
+            tick=tick,
+            time=time,
+            pose_sequence=pose_sequence,
+            rate=rate,
+            missed_ticks=missed_ticks,
+            tick_p50=tick_p50,
+            tick_p99=tick_p99,
+            status=status,
+            instruments=(left, right),
+            heights=self._surface.heights(amplitudes, records),
+            in_plane=self._surface.in_plane(records),
+        )
+
+
+def set_stage(
+    tissue: str,
+    *,
+    ports: str = "usual",
+    model: str = LIVE_MODELS[0],
+    size: tuple[float, float] = LIVE_SIZE,
+) -> Stage:
+    """Make a stage of names.
+
+    Args:
+        tissue: name of a preset.
+        ports: name of a port set, or a file (`contact.port_sets`).
+        model: one of `LIVE_MODELS`.
+        size: sides of the block [m].
+
+    Raises:
+        InputError: something named is not there or does not go together.
+    """
+    if model not in LIVE_MODELS:
+        raise InputError("model", " or ".join(LIVE_MODELS), model)
+    layers = preset(tissue)
+    instruments = instruments_through(ports, size)
+    # The range's thresholds were found under flat tools, so it is that of a flat tool as wide as the shaft.
+    press = Press(x=size[0] / 2, y=size[1] / 2, radius=instruments[0].shaft_radius, force=1e-2)
+    limit = linear_range(WaveSolid(layers, size=size, support=Support.BASE), layers, (press,)).force_limit
+    return Stage(
+        tissue=layers,
+        size=size,
+        scene=make_scene(live_model(layers, model, size=size), layers, instruments),
+        instruments=instruments,
+        linear_force=limit,
+    )
+
+
+def _shape(instrument: Instrument) -> InstrumentShape:
+    return InstrumentShape(
+        name="left" if instrument.name == "left" else "right",
+        port_m=instrument.port,
+        length_m=instrument.length,
+        shaft_radius_m=instrument.shaft_radius,
+        tip=instrument.tip.value,
+        handle_m=instrument.handle,
+    )
+
+
+def _instrument(record: FloatArray, hand_force: FloatArray) -> InstrumentState:
+    return InstrumentState(
+        tip=_vector(record[TIP : TIP + 3]),
+        direction=_vector(record[DIRECTION : DIRECTION + 3]),
+        roll=float(record[RECORD_ROLL]),
+        jaw=float(record[RECORD_JAW]),
+        force=_vector(record[FORCE : FORCE + 3]),
+        handle_force=_vector(hand_force),
+        touch=Touch(int(record[TOUCH])),
+        depth=float(record[DEPTH]),
+    )
+
+
+def _vector(values: FloatArray) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z
