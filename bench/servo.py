@@ -65,6 +65,9 @@ class Attended:
     def reset(self) -> None:
         """Ignore it."""
 
+    def guiding(self) -> None:
+        """Return nothing: nobody attempts anything."""
+
     def notices(self) -> Sequence[Notice]:
         """Return none."""
         return ()

@@ -65,6 +65,7 @@ class ScriptedSource:
         self._x, self._y = x.astype(np.float32), y.astype(np.float32)
         self._waiting = deque()
         self.poses = [rest_pose(0, 0, present=False), rest_pose(1, 0, present=False)]
+        self.guidance = None
         self.ticks = 0
         self.beats = 0
         self.resets = 0
@@ -105,6 +106,9 @@ class ScriptedSource:
 
     def say(self, level, text):
         self._waiting.append(Notice(level=level, text=text))
+
+    def guiding(self):
+        return self.guidance
 
     def notices(self):
         said = list(self._waiting)

@@ -11,7 +11,7 @@ Pieces are told apart by their first four bytes, and zlib's checksum guards them
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +21,7 @@ from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.realtime.tracking import Following, absent, follow_again
 from trocar.simulation import POSE
+from trocar.training.session import Recording
 
 _MAGIC = b"TRS1"
 _COUNTS = np.dtype("<u4")
@@ -149,3 +150,26 @@ def _of_planes(body: bytes, place: int, count: int) -> tuple[FloatArray, int]:
 def _parts(body: bytes, first: int, lengths: list[int]) -> list[Counts]:
     whole = np.frombuffer(body, _COUNTS, first + sum(lengths))[first:].astype(np.int64)
     return np.split(whole, np.cumsum(lengths)[:-1])
+
+
+def recorded(told: Mapping[str, object], data: Sequence[bytes]) -> Recording:
+    """Return a recording that was kept.
+
+    Args:
+        told: the strip's header.
+        data: its pieces, in order.
+
+    Raises:
+        InputError: a piece cannot be read, or the header is none.
+    """
+    numbers = {name: told.get(name) for name in ("dt_s", "smoothing_s", "speed_m_s")}
+    for name, number in numbers.items():
+        if not isinstance(number, float | None) or (name == "dt_s" and number is None):
+            raise InputError(f"recording: header: {name}", "a number", number)
+    whole = joined([read_piece(piece) for piece in data])
+    return Recording(
+        poses=poses_of(whole, numbers),  # type: ignore[arg-type] - looked at above
+        dt=numbers["dt_s"],  # type: ignore[arg-type] - likewise
+        resets=tuple(np.flatnonzero(whole.began)[1:].tolist()),
+        skipped=int(whole.skipped[1:].sum()),
+    )

@@ -17,7 +17,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from trocar.errors import InputError
 from trocar.web.closing import Closing, Farewell
-from trocar.web.messages import Acknowledgement, Message, read_client_message
+from trocar.web.messages import Acknowledgement, Guiding, Hello, Message, read_client_message
 from trocar.web.source import LiveSource, Pose
 from trocar.web.wire import Block, RangeError, decode_pose, encode
 
@@ -93,6 +93,8 @@ class Conversation:
         self._on_pose = on_pose
         self._hello = source.hello()
         self._block = Block.of(self._hello.tissue)
+        self._guiding: Guiding | None = None
+        self._guiding_is_told = True
         self._sent = 0
         self._acknowledged = 0
         self._pose_sequence = [-1, -1]
@@ -105,6 +107,18 @@ class Conversation:
         """Send a message before the next frame."""
         self._waiting.append(message)
         self._wake.set()
+
+    def greet(self, hello: Hello) -> None:
+        """Say what is shown, where it is another thing than before."""
+        if hello is not self._hello:
+            self._hello, self._block = hello, Block.of(hello.tissue)
+            self.tell(hello)
+
+    def guide(self, guiding: Guiding | None) -> None:
+        """Say what to do now; only the newest is sent."""
+        if guiding is not self._guiding:
+            self._guiding, self._guiding_is_told = guiding, guiding is None
+            self._wake.set()
 
     def end(self, farewell: Farewell) -> None:
         """End the conversation from outside."""
@@ -134,6 +148,9 @@ class Conversation:
         while True:
             while self._waiting:
                 await self._put(self._waiting.popleft().model_dump_json())
+            if self._guiding is not None and not self._guiding_is_told:
+                self._guiding_is_told = True
+                await self._put(self._guiding.model_dump_json())
             now = loop.time()
             credit = self._sent - self._acknowledged < self._limits.unacknowledged
             if credit and now >= due:

@@ -33,7 +33,7 @@ from websockets.exceptions import ConnectionClosedOK
 
 from trocar.errors import TrocarError
 from trocar.web.conversation import StreamLimits
-from trocar.web.messages import Hello, Notice
+from trocar.web.messages import Guiding, Hello, Notice
 from trocar.web.serve import serving
 from trocar.web.source import LEFT, LiveSource, Pose, Snapshot
 from trocar.web.wire import HEADER, encode_pose
@@ -94,6 +94,10 @@ class TimedSource:
     def reset(self) -> None:
         """Pass it on."""
         self._source.reset()
+
+    def guiding(self) -> Guiding | None:
+        """Return nothing: nobody attempts anything."""
+        return None
 
     def notices(self) -> Sequence[Notice]:
         """Return the source's own."""

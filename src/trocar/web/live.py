@@ -56,9 +56,16 @@ class Live:
                 self._let_go(client)
 
     def announce(self) -> None:
-        """Pass the source's notices on; while nobody is there to read them the source keeps them."""
+        """Pass on what is new: another scene, what to do now, notices.
+
+        While nobody is there to read notices the source keeps them.
+        """
         if not self._clients:
             return
+        hello, guiding = self.source.hello(), self.source.guiding()
+        for client in self._clients:
+            client.greet(hello)
+            client.guide(guiding)
         for notice in self.source.notices():
             for client in self._clients:
                 client.tell(notice)

@@ -71,11 +71,39 @@ class Hello(Message):
     camera: Camera
     linear_force_n: float = Field(description="up to this force the tissue's answer is trusted as linear")
     rate_hz: float = Field(description="requested ticks of the servo in a second")
-    tasks: tuple[str, ...] = ()
     steered_by: Literal["page", "trainer"] = Field(
         default="page",
         description="whose hands move the instruments: the page's, or a device of the trainer's own",
     )
+
+
+class TaskMark(Message):
+    """Something to be drawn on the tissue while a step is on."""
+
+    place_m: tuple[float, float]
+    radius_m: float
+    hand: Literal["left", "right"]
+
+
+class Guiding(Message):
+    """What to do now, in the attempt that is under way."""
+
+    type: Literal["guiding"] = "guiding"
+    attempt: int = Field(description="number of its record")
+    state: Literal["running", "marking", "finished", "interrupted"] = Field(
+        description="a finished one has its score card under /api/attempts/"
+    )
+    step: int = Field(description="number of the step that is on, from 0; as many as there are when all is done")
+    words: str = Field(description="what it asks for")
+    hint: str = Field(description="what would bring it nearer")
+    marks: tuple[TaskMark, ...]
+    least_n: tuple[float, float] = Field(description="force asked of the left and the right hand, at least")
+    most_n: tuple[float, float] = Field(description="at most; 0 where none is asked for")
+    mistakes: int
+    mistake: str = Field(description="the last one")
+    time_s: float = Field(description="since the attempt began")
+    left_s: float = Field(description="of the time allowed")
+    reason: str = Field(description="why it is over, or why the newest ticks are not kept yet")
 
 
 class Notice(Message):
@@ -99,7 +127,7 @@ class Reset(Message):
     type: Literal["reset"] = "reset"
 
 
-ServerMessage = Annotated[Hello | Notice, Field(discriminator="type")]
+ServerMessage = Annotated[Hello | Guiding | Notice, Field(discriminator="type")]
 ClientMessage = Annotated[Acknowledgement | Reset, Field(discriminator="type")]
 
 _CLIENT_MESSAGE: TypeAdapter[Acknowledgement | Reset] = TypeAdapter(ClientMessage)

@@ -18,7 +18,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from trocar.web.messages import Hello, Notice
+from trocar.web.messages import Guiding, Hello, Notice
 
 LEFT, RIGHT = 0, 1
 Vector = tuple[float, float, float]
@@ -122,7 +122,7 @@ class LiveSource(Protocol):
     """Moves the tissue; every method returns at once, for all are called from the server's one thread."""
 
     def hello(self) -> Hello:
-        """Return what never changes while the source lives: tissue, grid, instruments, camera."""
+        """Return tissue, grid, instruments, camera: the same object until the source shows something else."""
 
     def latest(self) -> Snapshot:
         """Return the newest state, whole; it is never changed afterwards."""
@@ -135,6 +135,9 @@ class LiveSource(Protocol):
 
     def reset(self) -> None:
         """Put the tissue back to rest."""
+
+    def guiding(self) -> Guiding | None:
+        """Return what to do now, if an attempt is under way; the same object until there is something new."""
 
     def notices(self) -> Sequence[Notice]:
         """Return what the user should read and has not been given yet; each notice is returned once."""

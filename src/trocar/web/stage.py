@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -27,6 +27,7 @@ from trocar.simulation.surface import Surface
 from trocar.study.linear_range import linear_range
 from trocar.tissues.catalogue import tissue as preset
 from trocar.tissues.tissue import Tissue
+from trocar.training.tasks.task import Task
 from trocar.waves.solid import WaveSolid
 from trocar.web.messages import Camera, Hello, InstrumentShape, LayerSize, TissueSize
 from trocar.web.source import InstrumentState, Snapshot, Status, Touch
@@ -41,6 +42,7 @@ class Stage:
 
     Attributes:
         tissue: the layers.
+        model: of their waves, one of `LIVE_MODELS`.
         size: sides of the block [m].
         scene: made of them.
         instruments: left and right.
@@ -49,6 +51,7 @@ class Stage:
     """
 
     tissue: Tissue
+    model: str
     size: tuple[float, float]
     scene: Scene = field(repr=False)
     instruments: tuple[Instrument, Instrument]
@@ -58,6 +61,14 @@ class Stage:
     @cached_property
     def _surface(self) -> Surface:
         return Surface(self.scene, self.tissue, size=self.size, grid=self.grid)
+
+    def suits(self, task: Task) -> bool:
+        """Return whether a task is done in this scene."""
+        return (
+            self.tissue.name == task.tissue
+            and self.instruments == task.instruments
+            and (self.model, self.size) == (LIVE_MODELS[0], LIVE_SIZE)
+        )
 
     def hello(self, *, by_page: bool) -> Hello:
         """Return what a page must know to draw it.
@@ -159,11 +170,22 @@ def set_stage(
     limit = linear_range(WaveSolid(layers, size=size, support=Support.BASE), layers, (press,)).force_limit
     return Stage(
         tissue=layers,
+        model=model,
         size=size,
         scene=make_scene(live_model(layers, model, size=size), layers, instruments),
         instruments=instruments,
         linear_force=limit,
     )
+
+
+@lru_cache(maxsize=8)
+def _stage_through(tissue: str, ports: str) -> Stage:
+    return set_stage(tissue, ports=ports)
+
+
+def stage_of(task: Task) -> Stage:
+    """Return the stage a task is done on."""
+    return _stage_through(task.tissue, task.ports)
 
 
 def _shape(instrument: Instrument) -> InstrumentShape:

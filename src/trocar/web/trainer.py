@@ -19,7 +19,7 @@ from trocar.devices.web import WebDevice
 from trocar.errors import TrocarError
 from trocar.realtime.servo import Servo, ServoFlag, ServoState
 from trocar.simulation import at_rest
-from trocar.web.messages import Hello, Notice
+from trocar.web.messages import Guiding, Hello, Notice
 from trocar.web.source import Pose, Snapshot, Status
 from trocar.web.stage import Stage
 
@@ -52,6 +52,7 @@ class Trainer:
         self._hello = stage.hello(by_page=self._device.steered_by_page)
         self._servo = _servo_of(stage)
         self._notices: deque[Notice] = deque(maxlen=16)
+        self._guiding: Guiding | None = None
         self._said: dict[str, float] = {}
         self._seen = ServoFlag(0)
         self._restarts = 0
@@ -97,6 +98,15 @@ class Trainer:
     def stage(self) -> Stage:
         """What the page is shown of."""
         return self._stage
+
+    @property
+    def device_name(self) -> str:
+        """What moves the instruments."""
+        return self._device.name
+
+    def begin_device(self) -> None:
+        """Let the time of a device of the trainer's own begin now."""
+        self._began = time.monotonic()
 
     def enter(self, stage: Stage) -> None:
         """Show another stage from now on; it takes as long as a servo takes to start.
@@ -168,7 +178,15 @@ class Trainer:
     def reset(self) -> None:
         """Put the tissue back to rest; a device of the trainer's own begins anew."""
         self._servo.reset()
-        self._began = time.monotonic()
+        self.begin_device()
+
+    def guiding(self) -> Guiding | None:
+        """Return what to do now, if an attempt is under way."""
+        return self._guiding
+
+    def guide(self, guiding: Guiding | None) -> None:
+        """Say what to do now; nothing, when no attempt is under way."""
+        self._guiding = guiding
 
     def notices(self) -> Sequence[Notice]:
         """Return what the user should read and has not been given yet."""

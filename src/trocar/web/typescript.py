@@ -17,11 +17,11 @@ from pydantic.json_schema import models_json_schema
 
 from trocar.web.closing import Closing
 from trocar.web.conversation import StreamLimits
-from trocar.web.messages import PROTOCOL, Acknowledgement, Hello, Notice, Reset
+from trocar.web.messages import PROTOCOL, Acknowledgement, Guiding, Hello, Notice, Reset
 from trocar.web.source import Status, Touch
 from trocar.web.wire import FRAME_MAGIC, HEADER, INSTRUMENT, POSE, POSE_MAGIC, REACH
 
-_FROM_SERVER = (Hello, Notice)
+_FROM_SERVER = (Hello, Guiding, Notice)
 _FROM_CLIENT = (Acknowledgement, Reset)
 _PLAIN = {"string": "string", "number": "number", "integer": "number", "boolean": "boolean", "null": "null"}
 _HEAD = "// Written by `python -m trocar.web.typescript`; do not edit."

@@ -1,0 +1,182 @@
+"""Attempts at the live trainer: one at a time, from the choice of a task to the score card in the records.
+
+An attempt is followed in a thread of its own. It ends when every step is done, when the time is up or when the trainee
+says so, and is then marked from what was recorded; what ends otherwise stays in the records as interrupted.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from trocar.contact.instrument import NAMES
+from trocar.errors import InputError, TrocarError
+from trocar.records.store import Records
+from trocar.simulation import DT
+from trocar.training.live import MARKED, Ending, Guidance, LiveAttempt
+from trocar.training.session import assess
+from trocar.training.strip import header
+from trocar.training.tasks.catalogue import task as task_by_name
+from trocar.training.tasks.task import Task
+from trocar.web.messages import Guiding, TaskMark
+from trocar.web.stage import stage_of
+from trocar.web.trainer import Trainer
+
+LOOK_EVERY = 0.04  # [s]
+_TOLD_EVERY = 0.1  # [s] of what changes steadily
+_SHOWN_AFTERWARDS = 5.0  # [s] that the end of an attempt is told to pages that come
+_LOG = logging.getLogger(__name__)
+
+
+class BusyError(TrocarError):
+    """Another attempt is under way."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Lesson:
+    number: int
+    live: LiveAttempt
+    thread: threading.Thread
+    over: threading.Event
+
+
+class Lessons:
+    """What a trainee does at the trainer.
+
+    Args:
+        trainer: running; its stage is changed to a task's where that is another.
+        records: open for writing.
+    """
+
+    def __init__(self, trainer: Trainer, records: Records) -> None:
+        self._trainer, self.records = trainer, records
+        self._lesson: _Lesson | None = None
+        self._lock = threading.Lock()
+        self._closing = threading.Event()
+
+    def begin(self, trainee: str, name: str, level: int) -> int:
+        """Begin an attempt and return the number of its record; the task's scene is at rest then.
+
+        Raises:
+            InputError: there is no such task or level, or nobody can be called so.
+            BusyError: another attempt is under way.
+            TrocarError: nothing can be recorded, or the scene could not be set up.
+        """
+        task = task_by_name(name, level)
+        if not self._lock.acquire(blocking=False):
+            raise BusyError("the trainer: another attempt is just beginning")
+        try:
+            if self._lesson is not None and self._lesson.thread.is_alive():
+                raise BusyError(f"the trainer: attempt {self._lesson.number} is under way; end it first")
+            self._set_up(task)
+            servo = self._trainer.servo
+            number = self.records.begin(
+                self.records.trainee(trainee),
+                task=task.name,
+                level=level,
+                device=self._trainer.device_name,
+                header=header(DT, servo.following),
+                dt=DT,
+            )
+            live = LiveAttempt(task, servo, lambda data, ticks: self.records.add(number, data, ticks))
+            self._trainer.begin_device()
+            over = threading.Event()
+            thread = threading.Thread(target=self._follow, args=(number, live, over), name="lesson")
+            self._lesson = _Lesson(number=number, live=live, thread=thread, over=over)
+            thread.start()
+            return number
+        finally:
+            self._lock.release()
+
+    def end(self, number: int) -> None:
+        """End an attempt as it stands; it is marked like any other.
+
+        Raises:
+            InputError: it is not under way.
+        """
+        lesson = self._lesson
+        if lesson is None or lesson.number != number or not lesson.thread.is_alive():
+            raise InputError("attempt", "the one that is under way", number)
+        lesson.live.give_up()
+
+    def close(self) -> None:
+        """Interrupt what is under way; what was done of it is kept."""
+        self._closing.set()
+        lesson = self._lesson
+        if lesson is not None:
+            lesson.over.set()
+            lesson.thread.join(10.0)
+
+    def _set_up(self, task: Task) -> None:
+        if not self._trainer.stage.suits(task):
+            self._trainer.enter(stage_of(task))
+
+    def _follow(self, number: int, live: LiveAttempt, over: threading.Event) -> None:
+        """Be an attempt's thread."""
+        told = -_TOLD_EVERY
+        guidance = live.look()
+        tell: Callable[..., None] = lambda state, **more: self._trainer.guide(  # noqa: E731 - one line, three uses
+            _guiding(number, live.task, guidance, state, **more)
+        )
+        before: Guidance | None = None
+        while guidance.ending is Ending.NOT_YET and not over.wait(LOOK_EVERY):
+            guidance = live.look()
+            if guidance.time - told >= _TOLD_EVERY or before is None or _differ(before, guidance):
+                told, before = guidance.time, guidance
+                tell("running")
+        if guidance.ending in MARKED:
+            tell("marking")
+        state, reason = self._close(number, live, guidance)
+        tell(state, reason=reason)
+        self._closing.wait(_SHOWN_AFTERWARDS)
+        if self._lesson is not None and self._lesson.number == number:
+            self._trainer.guide(None)
+
+    def _close(self, number: int, live: LiveAttempt, guidance: Guidance) -> tuple[str, str]:
+        """Mark an attempt that is over, or say why it cannot be; return how it stands and why."""
+        reason = str(guidance.ending) or "the trainer stopped"
+        try:
+            if guidance.ending in MARKED and len(live.recording.poses):
+                self.records.finish(number, assess(live.task, live.recording))
+                return "finished", reason
+            self.records.interrupt(number, reason)
+        except TrocarError as error:
+            _LOG.warning("attempt %d: %s", number, error)
+            reason = str(error)
+        except Exception:  # a fault of ours must not leave the page waiting
+            _LOG.exception("attempt %d could not be marked", number)
+            reason = "it could not be marked"
+        return "interrupted", reason
+
+
+def _differ(one: Guidance, other: Guidance) -> bool:
+    return (one.step, one.hint, one.mistakes, one.trouble) != (
+        other.step,
+        other.hint,
+        other.mistakes,
+        other.trouble,
+    )
+
+
+def _guiding(number: int, task: Task, guidance: Guidance, state: str, *, reason: str = "") -> Guiding:
+    bands = [band or (0.0, 0.0) for band in guidance.bands]
+    return Guiding(
+        attempt=number,
+        state=state,  # type: ignore[arg-type] - checked by pydantic
+        step=guidance.step,
+        words=guidance.words,
+        hint=guidance.hint,
+        marks=tuple(
+            TaskMark(place_m=mark.place, radius_m=mark.radius, hand=NAMES[mark.hand])  # type: ignore[arg-type]
+            for mark in guidance.marks
+        ),
+        least_n=(bands[0][0], bands[1][0]),
+        most_n=(bands[0][1], bands[1][1]),
+        mistakes=guidance.mistakes,
+        mistake=guidance.mistake,
+        time_s=guidance.time,
+        left_s=max(task.marking.cutoff - guidance.time, 0.0),
+        reason=reason or guidance.trouble,
+    )
