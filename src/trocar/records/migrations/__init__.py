@@ -1,0 +1,1 @@
+"""Each schema as a step from the one before. `trocar.records.schema` takes them, in one transaction."""
