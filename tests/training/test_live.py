@@ -1,30 +1,18 @@
 """An attempt at a servo that runs: guided as it goes, kept to the tick, and the same when it is played again."""
 
 import threading
-import time
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from scripted_hands import Hands, first_step
 from trocar.errors import TrocarError
 from trocar.realtime.servo import Servo
 from trocar.realtime.trail import read_trail
-from trocar.simulation import HANDLE, JAW, PRESENT, ROLL, at_rest
+from trocar.simulation import at_rest
 from trocar.training.live import Ending, LiveAttempt
-from trocar.training.players import ScriptedPlayer, Skill
 from trocar.training.session import assess, scene_of
 from trocar.training.strip import header, joined, poses_of, read_piece
-from trocar.training.tasks.catalogue import task
-from trocar.training.tasks.moment import Moment
-from trocar.training.tasks.progress import Progress
-
-PERIOD = 0.01  # [s] between poses of the scripted hands
-
-
-def first_step():
-    whole = task("palpate", 1)
-    return replace(whole, steps=whole.steps[:1])
 
 
 @pytest.fixture(scope="module")
@@ -42,25 +30,6 @@ def servo():
         yield servo
         over.set()
         thread.join()
-
-
-class Hands:
-    """A scripted trainee at a live servo."""
-
-    def __init__(self, servo, attempted):
-        self.servo, self.task = servo, attempted
-        self.player = ScriptedPlayer(attempted.instruments, Skill.EXPERT, 1, dt=PERIOD)
-        self.progress, self.began = Progress(attempted), time.monotonic()
-
-    def move(self):
-        moment = Moment(time.monotonic() - self.began, np.array(self.servo.latest().records))
-        self.progress.advance(moment)
-        for hand, pose in enumerate(self.player.poses(moment, self.progress)):
-            x, y, z = pose[HANDLE : HANDLE + 3]
-            self.servo.command(
-                hand, present=bool(pose[PRESENT]), handle=(x, y, z), roll=pose[ROLL], jaw=pose[JAW]
-            )
-        time.sleep(PERIOD)
 
 
 def kept_in(kept):

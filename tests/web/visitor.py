@@ -25,18 +25,21 @@ class Visitor:
         self.target = served.address.removeprefix(served.origin)
         self.cookie = self.get(self.target)["set-cookie"].partition(";")[0]
 
-    def request(self, method, path, headers=None):
+    def request(self, method, path, headers=None, body=b"", timeout=5.0):
         """Return an answer's headers (lower case), its "status" and its "body"."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.served.port, timeout=5)
+        connection = http.client.HTTPConnection("127.0.0.1", self.served.port, timeout=timeout)
         try:
             connection.putrequest(method, path, skip_host=True, skip_accept_encoding=True)
             for name, value in ({"Host": self.host} | (headers or {})).items():
                 if value is not None:
                     connection.putheader(name, value)
-            connection.endheaders()
+            if body:
+                connection.putheader("Content-Length", str(len(body)))
+                connection.putheader("Content-Type", "application/json")
+            connection.endheaders(body)
             response = connection.getresponse()
             found = {name.lower(): value for name, value in response.getheaders()}
-            return found | {"status": response.status, "body": response.read().decode()}
+            return found | {"status": response.status, "body": response.read().decode("latin-1")}
         finally:
             connection.close()
 
@@ -47,6 +50,18 @@ class Visitor:
     def get_inside(self, path):
         """Request a page with the cookie."""
         return self.get(path, {"Cookie": self.cookie})
+
+    def ask(self, path, body=None):
+        """Ask the REST interface, as the page does; return the status and what came, out of JSON if it was."""
+        headers = {"Cookie": self.cookie, "Origin": self.origin}
+        if body is None:
+            found = self.request("GET", path, headers, timeout=60)
+        else:
+            data = body if isinstance(body, bytes) else json.dumps(body).encode()
+            found = self.request("POST", path, headers, data, timeout=60)
+        is_json = found.get("content-type", "").startswith("application/json")
+        text = found["body"].encode("latin-1")
+        return found["status"], json.loads(text) if is_json else text
 
     def handshake(self, headers=None, path="/live"):
         """Return the status with which a WebSocket is answered, for exactly these headers."""

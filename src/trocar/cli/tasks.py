@@ -24,23 +24,7 @@ def tasks(
 
     every = [task(name, level) for name in TASKS for level in LEVELS]
     if as_json:
-        rows = [
-            {
-                "name": one.name,
-                "title": one.title,
-                "level": one.level,
-                "purpose": one.purpose,
-                "tissue": one.tissue,
-                "ports": one.ports,
-                "steps": len(one.steps),
-                "force_limit_n": one.force_limit,
-                "cutoff_s": one.marking.cutoff,
-                "expert_time_s": one.marking.expert_time,
-                "pass_score": one.marking.pass_score,
-                "pass_source": one.pass_source,
-            }
-            for one in every
-        ]
+        rows = [one.as_dict() for one in every]
         typer.echo(json.dumps(rows, indent=2))
         return
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False)

@@ -97,6 +97,8 @@ def train(
 
     from rich.console import Console
 
+    from trocar.records.store import Records
+    from trocar.web.lessons import Lessons
     from trocar.web.serve import check_address, serve
     from trocar.web.stage import set_stage
     from trocar.web.trainer import Trainer
@@ -104,6 +106,9 @@ def train(
     hands = _device(device, ports, script=script, seed=seed, recording=recording)
     check_address(listen, cert, key)
     log = Console(stderr=True, highlight=False)
+    records = Records.open()
+    if records.note:
+        log.print(records.note)
     with log.status("laying the tissue and its waves out ...") as status:
         trainer = Trainer(set_stage(tissue, ports=ports, model=model), device=hands)
         try:
@@ -119,10 +124,13 @@ def train(
         if not no_browser:
             _open(served.address)
 
+    lessons = Lessons(trainer, records)
     try:
-        serve(trainer, on_ready=ready, host=listen, port=port, cert=cert, key=key)
+        serve(trainer, lessons, on_ready=ready, host=listen, port=port, cert=cert, key=key)
     finally:
+        lessons.close()
         trainer.close()
+        records.close()
     log.print("The trainer has stopped.")
 
 

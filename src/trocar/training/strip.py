@@ -162,14 +162,19 @@ def recorded(told: Mapping[str, object], data: Sequence[bytes]) -> Recording:
     Raises:
         InputError: a piece cannot be read, or the header is none.
     """
-    numbers = {name: told.get(name) for name in ("dt_s", "smoothing_s", "speed_m_s")}
-    for name, number in numbers.items():
-        if not isinstance(number, float | None) or (name == "dt_s" and number is None):
-            raise InputError(f"recording: header: {name}", "a number", number)
+    numbers: dict[str, float | None] = {}
+    for name in ("dt_s", "smoothing_s", "speed_m_s"):
+        number = told.get(name)
+        if not isinstance(number, float | None):
+            raise InputError(f"recording: header: {name}", "a number, or nothing", number)
+        numbers[name] = number
+    dt = numbers["dt_s"]
+    if dt is None:
+        raise InputError("recording: header: dt_s", "a number", dt)
     whole = joined([read_piece(piece) for piece in data])
     return Recording(
-        poses=poses_of(whole, numbers),  # type: ignore[arg-type] - looked at above
-        dt=numbers["dt_s"],  # type: ignore[arg-type] - likewise
+        poses=poses_of(whole, numbers),
+        dt=dt,
         resets=tuple(np.flatnonzero(whole.began)[1:].tolist()),
         skipped=int(whole.skipped[1:].sum()),
     )

@@ -12,6 +12,8 @@ from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket
 
 from trocar import __version__
+from trocar.web.api import routes, say_errors
+from trocar.web.lessons import Lessons
 from trocar.web.live import Live
 from trocar.web.messages import Hello
 
@@ -51,11 +53,12 @@ class ClientFiles:
         await answer(scope, receive, send)
 
 
-def application(live: Live, *, client: Path = CLIENT) -> FastAPI:
+def application(live: Live, lessons: Lessons | None = None, *, client: Path = CLIENT) -> FastAPI:
     """Return the application, doors not included.
 
     Args:
         live: the stream and its source.
+        lessons: tasks to do with it, and their records; without, there is free practice alone.
         client: folder of the built browser client.
     """
     app = FastAPI(
@@ -74,5 +77,8 @@ def application(live: Live, *, client: Path = CLIENT) -> FastAPI:
     async def stream(websocket: WebSocket) -> None:
         await live.converse(websocket)
 
+    say_errors(app)
+    if lessons is not None:
+        app.include_router(routes(lessons))
     app.mount("/", ClientFiles(client))
     return app

@@ -8,6 +8,7 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 
 from trocar.errors import InputError
+from trocar.records.rows import KeptAttempt, Status
 from trocar.records.store import Records
 from trocar.training.film import Film, film
 from trocar.training.headless import attempt as attempt_of
@@ -16,7 +17,7 @@ from trocar.training.session import Card, Recording
 from trocar.training.strip import recorded
 from trocar.training.tasks.catalogue import task as task_by_name
 from trocar.training.tasks.task import Task
-from trocar.web.source import Status
+from trocar.web.source import Status as Shown
 from trocar.web.stage import Stage, stage_of
 from trocar.web.wire import encode
 
@@ -65,7 +66,7 @@ class Screening:
             self.film.amplitudes[number],
             tick=round(time / self.recording.dt),
             time=time,
-            status=Status.ALIVE,
+            status=Shown.ALIVE,
         )
         return encode(snapshot, number + 1)
 
@@ -82,13 +83,15 @@ class Films:
         self._kept: OrderedDict[Hashable, Screening] = OrderedDict()
         self._lock = threading.Lock()  # one is made at a time: it takes a whole core
 
-    def of_attempt(self, number: int) -> Screening:
-        """Return the film of an attempt on record.
+    def of_attempt(self, kept: KeptAttempt) -> Screening:
+        """Return the film of an attempt on record; of one that is under way, so far as it is kept now.
 
         Raises:
-            InputError: there is none of that number, or nothing of it was recorded.
+            InputError: nothing of it was recorded.
         """
-        return self._found(number, lambda: self._of_attempt(number))
+        running = kept.row.status is Status.RUNNING
+        key = (kept.row.id, kept.row.duration if running else None)
+        return self._found(key, lambda: self._of_attempt(kept))
 
     def of_expert(self, name: str, level: int) -> Screening:
         """Return the film of the scripted expert at a task.
@@ -99,12 +102,11 @@ class Films:
         task = task_by_name(name, level)
         return self._found((name, level), lambda: _of_expert(task))
 
-    def _of_attempt(self, number: int) -> Screening:
-        kept = self._records.attempt(number)
+    def _of_attempt(self, kept: KeptAttempt) -> Screening:
         task = task_by_name(kept.row.task, kept.row.level)
-        recording = recorded(*self._records.chunks(number))
+        recording = recorded(*self._records.chunks(kept.row.id))
         if len(recording.poses) == 0:
-            raise InputError(f"attempt {number}", "one with a recording", "one of which nothing was recorded")
+            raise InputError(f"attempt {kept.row.id}", "one with a recording", "one of which nothing was recorded")
         return Screening(task=task, stage=stage_of(task), film=film(task, recording), recording=recording)
 
     def _found(self, key: Hashable, make: Callable[[], Screening]) -> Screening:

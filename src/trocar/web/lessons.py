@@ -8,10 +8,8 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Callable
 from dataclasses import dataclass
 
-from trocar.contact.instrument import NAMES
 from trocar.errors import InputError, TrocarError
 from trocar.records.store import Records
 from trocar.simulation import DT
@@ -20,7 +18,7 @@ from trocar.training.session import assess
 from trocar.training.strip import header
 from trocar.training.tasks.catalogue import task as task_by_name
 from trocar.training.tasks.task import Task
-from trocar.web.messages import Guiding, TaskMark
+from trocar.web.messages import Guiding, State, TaskMark
 from trocar.web.stage import stage_of
 from trocar.web.trainer import Trainer
 
@@ -39,7 +37,8 @@ class _Lesson:
     number: int
     live: LiveAttempt
     thread: threading.Thread
-    over: threading.Event
+    stop: threading.Event
+    closed: threading.Event
 
 
 class Lessons:
@@ -68,7 +67,7 @@ class Lessons:
         if not self._lock.acquire(blocking=False):
             raise BusyError("the trainer: another attempt is just beginning")
         try:
-            if self._lesson is not None and self._lesson.thread.is_alive():
+            if self._lesson is not None and not self._lesson.closed.is_set():
                 raise BusyError(f"the trainer: attempt {self._lesson.number} is under way; end it first")
             self._set_up(task)
             servo = self._trainer.servo
@@ -82,9 +81,9 @@ class Lessons:
             )
             live = LiveAttempt(task, servo, lambda data, ticks: self.records.add(number, data, ticks))
             self._trainer.begin_device()
-            over = threading.Event()
-            thread = threading.Thread(target=self._follow, args=(number, live, over), name="lesson")
-            self._lesson = _Lesson(number=number, live=live, thread=thread, over=over)
+            stop, closed = threading.Event(), threading.Event()
+            thread = threading.Thread(target=self._follow, args=(number, live, stop, closed), name="lesson")
+            self._lesson = _Lesson(number=number, live=live, thread=thread, stop=stop, closed=closed)
             thread.start()
             return number
         finally:
@@ -97,7 +96,7 @@ class Lessons:
             InputError: it is not under way.
         """
         lesson = self._lesson
-        if lesson is None or lesson.number != number or not lesson.thread.is_alive():
+        if lesson is None or lesson.number != number or lesson.closed.is_set():
             raise InputError("attempt", "the one that is under way", number)
         lesson.live.give_up()
 
@@ -106,48 +105,59 @@ class Lessons:
         self._closing.set()
         lesson = self._lesson
         if lesson is not None:
-            lesson.over.set()
+            lesson.stop.set()
             lesson.thread.join(10.0)
 
     def _set_up(self, task: Task) -> None:
         if not self._trainer.stage.suits(task):
             self._trainer.enter(stage_of(task))
 
-    def _follow(self, number: int, live: LiveAttempt, over: threading.Event) -> None:
+    def _follow(
+        self, number: int, live: LiveAttempt, stop: threading.Event, closed: threading.Event
+    ) -> None:
         """Be an attempt's thread."""
         told = -_TOLD_EVERY
         guidance = live.look()
-        tell: Callable[..., None] = lambda state, **more: self._trainer.guide(  # noqa: E731 - one line, three uses
-            _guiding(number, live.task, guidance, state, **more)
-        )
+
+        def tell(state: State, reason: str = "") -> None:
+            self._trainer.guide(_guiding(number, live.task, guidance, state, reason))
+
         before: Guidance | None = None
-        while guidance.ending is Ending.NOT_YET and not over.wait(LOOK_EVERY):
+        while guidance.ending is Ending.NOT_YET and not stop.wait(LOOK_EVERY):
             guidance = live.look()
             if guidance.time - told >= _TOLD_EVERY or before is None or _differ(before, guidance):
                 told, before = guidance.time, guidance
                 tell("running")
+        if guidance.ending is Ending.NOT_YET:
+            live.give_up()  # the last of it is kept; it is not marked, for nobody wanted it to end
         if guidance.ending in MARKED:
             tell("marking")
         state, reason = self._close(number, live, guidance)
-        tell(state, reason=reason)
+        closed.set()
+        tell(state, reason)
         self._closing.wait(_SHOWN_AFTERWARDS)
         if self._lesson is not None and self._lesson.number == number:
             self._trainer.guide(None)
 
-    def _close(self, number: int, live: LiveAttempt, guidance: Guidance) -> tuple[str, str]:
+    def _close(self, number: int, live: LiveAttempt, guidance: Guidance) -> tuple[State, str]:
         """Mark an attempt that is over, or say why it cannot be; return how it stands and why."""
-        reason = str(guidance.ending) or "the trainer stopped"
+        reason, card = str(guidance.ending) or "the trainer stopped", None
+        if guidance.ending in MARKED:
+            try:
+                card = assess(live.task, live.recording)
+            except TrocarError as error:  # nobody held an instrument
+                reason = str(error)
+            except Exception:  # noqa: BLE001 - a fault of ours must not leave the page waiting
+                _LOG.exception("attempt %d could not be marked", number)
+                reason = "it could not be marked"
         try:
-            if guidance.ending in MARKED and len(live.recording.poses):
-                self.records.finish(number, assess(live.task, live.recording))
+            if card is not None:
+                self.records.finish(number, card)
                 return "finished", reason
             self.records.interrupt(number, reason)
         except TrocarError as error:
             _LOG.warning("attempt %d: %s", number, error)
             reason = str(error)
-        except Exception:  # a fault of ours must not leave the page waiting
-            _LOG.exception("attempt %d could not be marked", number)
-            reason = "it could not be marked"
         return "interrupted", reason
 
 
@@ -160,16 +170,16 @@ def _differ(one: Guidance, other: Guidance) -> bool:
     )
 
 
-def _guiding(number: int, task: Task, guidance: Guidance, state: str, *, reason: str = "") -> Guiding:
+def _guiding(number: int, task: Task, guidance: Guidance, state: State, reason: str) -> Guiding:
     bands = [band or (0.0, 0.0) for band in guidance.bands]
     return Guiding(
         attempt=number,
-        state=state,  # type: ignore[arg-type] - checked by pydantic
+        state=state,
         step=guidance.step,
         words=guidance.words,
         hint=guidance.hint,
         marks=tuple(
-            TaskMark(place_m=mark.place, radius_m=mark.radius, hand=NAMES[mark.hand])  # type: ignore[arg-type]
+            TaskMark(place_m=mark.place, radius_m=mark.radius, hand="left" if mark.hand == 0 else "right")
             for mark in guidance.marks
         ),
         least_n=(bands[0][0], bands[1][0]),

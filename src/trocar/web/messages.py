@@ -85,15 +85,18 @@ class TaskMark(Message):
     hand: Literal["left", "right"]
 
 
+State = Literal["running", "marking", "finished", "interrupted"]
+
+
 class Guiding(Message):
     """What to do now, in the attempt that is under way."""
 
     type: Literal["guiding"] = "guiding"
     attempt: int = Field(description="number of its record")
-    state: Literal["running", "marking", "finished", "interrupted"] = Field(
-        description="a finished one has its score card under /api/attempts/"
+    state: State = Field(description="a finished one has its score card under /api/attempts/")
+    step: int = Field(
+        description="number of the step that is on, from 0; as many as there are when all is done"
     )
-    step: int = Field(description="number of the step that is on, from 0; as many as there are when all is done")
     words: str = Field(description="what it asks for")
     hint: str = Field(description="what would bring it nearer")
     marks: tuple[TaskMark, ...]

@@ -26,6 +26,7 @@ from trocar.errors import InputError, TrocarError
 from trocar.web.application import CLIENT, application
 from trocar.web.conversation import FAREWELL_TIME, StreamLimits
 from trocar.web.doors import Doors
+from trocar.web.lessons import Lessons
 from trocar.web.live import Live
 from trocar.web.sessions import Sessions
 from trocar.web.source import LiveSource
@@ -58,6 +59,7 @@ class Served:
 
 def serve(
     source: LiveSource,
+    lessons: Lessons | None = None,
     *,
     on_ready: Callable[[Served], None],
     host: str = "127.0.0.1",
@@ -71,6 +73,7 @@ def serve(
 
     Args:
         source: what moves the tissue; it is beaten every 10 ms and not closed.
+        lessons: tasks to do with it; not closed.
         on_ready: called once connections are accepted, from the server's own thread, so it has to be quick; what it
             raises ends the server. Nothing is printed here.
         host: address or name of this machine to listen on.
@@ -94,7 +97,11 @@ def serve(
         hosts = _host_values(host, ip, bound_port, scheme)
         cookie = f"{'__Host-' if secure else ''}trocar-{bound_port}"
         doors = Doors(
-            application(live, client=client), sessions=sessions, hosts=hosts, cookie=cookie, secure=secure
+            application(live, lessons, client=client),
+            sessions=sessions,
+            hosts=hosts,
+            cookie=cookie,
+            secure=secure,
         )
         config = uvicorn.Config(
             doors,
@@ -201,7 +208,7 @@ class _Server(uvicorn.Server):
 
 
 @contextmanager
-def serving(source: LiveSource, **options: Any) -> Iterator[Served]:
+def serving(source: LiveSource, lessons: Lessons | None = None, **options: Any) -> Iterator[Served]:
     """Serve in a thread of its own for as long as the block runs; options as for `serve`.
 
     What ends the server early is raised at the end of the block, or instead of it.
@@ -216,7 +223,7 @@ def serving(source: LiveSource, **options: Any) -> Iterator[Served]:
 
     def run() -> None:
         try:
-            serve(source, on_ready=take, **options)
+            serve(source, lessons, on_ready=take, **options)
         except BaseException as error:  # noqa: BLE001 - raised in the other thread
             failures.append(error)
         finally:

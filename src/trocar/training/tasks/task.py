@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import groupby, pairwise
 from math import dist
 
 from trocar.contact.instrument import Instrument
@@ -51,6 +51,27 @@ class Task:
     def instruments(self) -> tuple[Instrument, Instrument]:
         """Left and right, through the task's ports."""
         return instruments_through(self.ports, LIVE_SIZE)
+
+    def as_dict(self) -> dict[str, object]:
+        """Return it as JSON takes it; steps that ask for the same thing are one line of its list."""
+        return {
+            "name": self.name,
+            "title": self.title,
+            "level": self.level,
+            "purpose": self.purpose,
+            "tissue": self.tissue,
+            "ports": self.ports,
+            "steps": len(self.steps),
+            "list": [
+                {"words": words, "steps": len(list(alike))}
+                for words, alike in groupby(self.steps, key=lambda step: step.words)
+            ],
+            "force_limit_n": self.force_limit,
+            "cutoff_s": self.marking.cutoff,
+            "expert_time_s": self.marking.expert_time,
+            "pass_score": self.marking.pass_score,
+            "pass_source": self.pass_source,
+        }
 
     @property
     def ideal_length(self) -> float:

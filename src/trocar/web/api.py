@@ -1,0 +1,194 @@
+"""The REST interface: tasks, trainees, attempts and their films and pictures, answers. One error shape: `detail`.
+
+Every answer is what a library function returned, as JSON; OpenAPI describes it under /api/openapi.json.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, FastAPI, HTTPException, Path, Query, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse, Response
+from pydantic import BaseModel, ConfigDict, Field
+
+from trocar.errors import InputError, TrocarError
+from trocar.records.questionnaire import GROUPS, ITEMS, SCALE
+from trocar.records.rows import KeptAttempt
+from trocar.training.tasks.catalogue import LEVELS, TASKS, task
+from trocar.web.films import MOST_FRAMES, Films, Screening
+from trocar.web.lessons import BusyError, Lessons
+from trocar.web.messages import Hello
+
+_Number = Annotated[int, Path(ge=1, le=2**53)]
+_Level = Annotated[int, Path(ge=1, le=9)]
+_FRAMES = "application/octet-stream"
+
+
+class _Asked(BaseModel):
+    """What every body shares: nothing is converted, nothing unknown is let through."""
+
+    model_config = ConfigDict(strict=True, extra="forbid")
+
+
+class NewTrainee(_Asked):
+    """Who trains from now on."""
+
+    name: str = Field(max_length=200)
+
+
+class NewAttempt(_Asked):
+    """What is to be attempted, and by whom."""
+
+    trainee: str = Field(max_length=200)
+    task: str = Field(max_length=80)
+    level: int = 1
+
+
+class NewAnswers(_Asked):
+    """What a trainee thinks of the trainer."""
+
+    trainee: str = Field(max_length=200)
+    attempt: int | None = Field(default=None, description="after which; none after a course")
+    group: str = Field(max_length=20)
+    values: dict[str, int] = Field(max_length=100, description="by item, 1 to 5")
+
+
+class FilmSheet(BaseModel):
+    """What a film is made of."""
+
+    attempt: int | None
+    task: str
+    level: int
+    frames: int
+    every_s: float = Field(
+        description="from one frame to the next; the first comes one such time after the start"
+    )
+    frame_bytes: int = Field(description="length of a frame in the stream's format")
+    most_frames: int = Field(description="in one answer")
+    steps_s: tuple[float, ...] = Field(description="when each step was done, as many as were")
+    mistakes: tuple[dict[str, float | int | str], ...]
+    hello: Hello = Field(description="what is shown")
+
+
+def routes(lessons: Lessons) -> APIRouter:
+    """Return the routes of a trainer that has lessons."""
+    records, films = lessons.records, Films(lessons.records)
+    api = APIRouter(prefix="/api")
+
+    def kept(number: int) -> KeptAttempt:
+        try:
+            return records.attempt(number)
+        except InputError as error:
+            raise HTTPException(404, str(error)) from error
+
+    @api.get("/tasks", summary="Every task at every level")
+    def tasks() -> list[dict[str, object]]:
+        return [task(name, level).as_dict() for name in TASKS for level in LEVELS]
+
+    @api.get("/tasks/{name}/{level}/film", summary="The scripted expert at a task")
+    def expert(name: str, level: _Level) -> FilmSheet:
+        return _sheet(films.of_expert(name, level), None)
+
+    @api.get("/tasks/{name}/{level}/film/frames", summary="Frames of it", response_class=Response)
+    def expert_frames(name: str, level: _Level, first: int = 0, count: int = 25) -> Response:
+        return Response(films.of_expert(name, level).frames(first, count), media_type=_FRAMES)
+
+    @api.get("/trainees", summary="Everyone who trains")
+    def trainees() -> list[dict[str, object]]:
+        return [{"id": one.id, "name": one.name, "attempts": one.attempts} for one in records.trainees()]
+
+    @api.post("/trainees", summary="Somebody new, or known already", status_code=201)
+    def new_trainee(asked: NewTrainee) -> dict[str, object]:
+        one = records.trainee(asked.name)
+        return {"id": one.id, "name": one.name, "attempts": one.attempts}
+
+    @api.get("/attempts", summary="Attempts, oldest first")
+    def attempts(
+        trainee: str | None = None, task: str | None = None, level: int | None = None
+    ) -> list[dict[str, object]]:
+        return [row.as_dict() for row in records.attempts(trainee, task, level)]
+
+    @api.post("/attempts", summary="Begin one; it runs when this answers", status_code=201)
+    def begin(asked: NewAttempt) -> dict[str, object]:
+        number = lessons.begin(asked.trainee, asked.task, asked.level)
+        return records.attempt(number).row.as_dict()
+
+    @api.get("/attempts/{number}", summary="One, with its score card once it is marked")
+    def attempt(number: _Number) -> dict[str, object]:
+        return kept(number).as_dict()
+
+    @api.post("/attempts/{number}/end", summary="End the one that is under way", status_code=202)
+    def end(number: _Number) -> dict[str, object]:
+        lessons.end(number)
+        return records.attempt(number).row.as_dict()
+
+    @api.get("/attempts/{number}/film", summary="An attempt to be looked at again")
+    def film(number: _Number) -> FilmSheet:
+        return _sheet(films.of_attempt(kept(number)), number)
+
+    @api.get("/attempts/{number}/film/frames", summary="Frames of it", response_class=Response)
+    def frames(number: _Number, first: int = 0, count: int = 25) -> Response:
+        return Response(films.of_attempt(kept(number)).frames(first, count), media_type=_FRAMES)
+
+    @api.get("/history", summary="A trainee's way through one task")
+    def history(
+        trainee: Annotated[str, Query(max_length=200)],
+        task: Annotated[str, Query(max_length=80)],
+        level: int = 1,
+    ) -> dict[str, object]:
+        return records.history(trainee, task, level).as_dict()
+
+    @api.get("/questionnaire", summary="What trainees are asked about the trainer")
+    def questionnaire() -> dict[str, object]:
+        return {"groups": GROUPS, "items": ITEMS, "scale": SCALE}
+
+    @api.post("/answers", summary="Answer it", status_code=201)
+    def answers(asked: NewAnswers) -> dict[Literal["kept"], int]:
+        records.answer(records.trainee(asked.trainee), asked.attempt, asked.group, asked.values)
+        return {"kept": len(asked.values)}
+
+    return api
+
+
+def say_errors(app: FastAPI) -> None:
+    """Let every error of the interface be a sentence under `detail`."""
+
+    def answer(status: int, sentence: str) -> JSONResponse:
+        return JSONResponse({"detail": sentence}, status_code=status)
+
+    @app.exception_handler(InputError)
+    def refused(_: Request, error: InputError) -> JSONResponse:
+        return answer(422, str(error))
+
+    @app.exception_handler(BusyError)
+    def busy(_: Request, error: BusyError) -> JSONResponse:
+        return answer(409, str(error))
+
+    @app.exception_handler(TrocarError)
+    def failed(_: Request, error: TrocarError) -> JSONResponse:
+        return answer(503, str(error))
+
+    @app.exception_handler(RequestValidationError)
+    def malformed(_: Request, error: RequestValidationError) -> JSONResponse:
+        first = error.errors()[0]
+        where = ".".join(map(str, first["loc"][1:])) or "the body"
+        return answer(422, f"{where}: {first['msg'].lower()}, got {str(first['input'])[:80]!r}")
+
+
+def _sheet(screening: Screening, attempt: int | None) -> FilmSheet:
+    shown = screening.film
+    return FilmSheet(
+        attempt=attempt,
+        task=screening.task.name,
+        level=screening.task.level,
+        frames=len(shown),
+        every_s=shown.every,
+        frame_bytes=len(screening.frames(0, 1)) if len(shown) else 0,
+        most_frames=MOST_FRAMES,
+        steps_s=shown.steps,
+        mistakes=tuple(
+            {"time_s": one.time, "step": one.step + 1, "words": one.words} for one in shown.mistakes
+        ),
+        hello=screening.stage.hello(by_page=False),
+    )
