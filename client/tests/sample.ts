@@ -31,7 +31,7 @@ export function hello(): Hello {
     camera: { port_m: [0.03, -0.07, 0.11], target_m: [0.03, 0.03, 0] },
     linear_force_n: 0.4,
     rate_hz: 1000,
-    tasks: [],
+    lessons: false,
     steered_by: "page",
   };
 }

@@ -70,7 +70,7 @@ def hello(left: str = "grasper", right: str = "probe", steered_by: str = "page")
         "camera": {"port_m": [0.03, -0.07, 0.11], "target_m": [0.03, 0.03, 0.0]},
         "linear_force_n": LINEAR,
         "rate_hz": 1000,
-        "tasks": [],
+        "lessons": False,
         "steered_by": steered_by,
     }
 

@@ -37,7 +37,7 @@ def test_the_server_speaks_first_and_says_what_there_is(guest):
             "camera",
             "linear_force_n",
             "rate_hz",
-            "tasks",
+            "lessons",
             "steered_by",
         }
     assert json.loads(guest.get_inside("/api/hello")["body"]) == hello

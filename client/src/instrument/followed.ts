@@ -46,11 +46,17 @@ export class Followed {
   }
 }
 
+/** Draw an instrument as a frame has it. */
+export function asSeen(state: InstrumentState): Drawn {
+  const { tip, direction, roll, jaw, present, holding } = state;
+  return { tip, direction: unit(direction), roll, jaw, present, holding };
+}
+
 /** Carry an instrument on by a share of what it moved from one state to the next. */
 function carried(from: InstrumentState | undefined, to: InstrumentState, ahead: number): Drawn {
   const { present, holding } = to;
   if (!from?.present || ahead === 0) {
-    return { tip: to.tip, direction: unit(to.direction), roll: to.roll, jaw: to.jaw, present, holding };
+    return asSeen(to);
   }
   return {
     tip: vector(from.tip, to.tip, ahead),

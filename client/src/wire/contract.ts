@@ -12,6 +12,35 @@ export interface Camera {
   readonly target_m: readonly [number, number, number];
 }
 
+/** What to do now, in the attempt that is under way. */
+export interface Guiding {
+  readonly type: "guiding";
+  /** number of its record */
+  readonly attempt: number;
+  /** a finished one has its score card under /api/attempts/ */
+  readonly state: "running" | "marking" | "finished" | "interrupted";
+  /** number of the step that is on, from 0; as many as there are when all is done */
+  readonly step: number;
+  /** what it asks for */
+  readonly words: string;
+  /** what would bring it nearer */
+  readonly hint: string;
+  readonly marks: readonly TaskMark[];
+  /** force asked of the left and the right hand, at least */
+  readonly least_n: readonly [number, number];
+  /** at most; 0 where none is asked for */
+  readonly most_n: readonly [number, number];
+  readonly mistakes: number;
+  /** the last one */
+  readonly mistake: string;
+  /** since the attempt began */
+  readonly time_s: number;
+  /** of the time allowed */
+  readonly left_s: number;
+  /** why it is over, or why the newest ticks are not kept yet */
+  readonly reason: string;
+}
+
 /** What the server says first: the tissue, its grid and the instruments. */
 export interface Hello {
   readonly type: "hello";
@@ -25,7 +54,8 @@ export interface Hello {
   readonly linear_force_n: number;
   /** requested ticks of the servo in a second */
   readonly rate_hz: number;
-  readonly tasks: readonly string[];
+  /** whether there are tasks to do, under /api/tasks */
+  readonly lessons: boolean;
   /** whose hands move the instruments: the page's, or a device of the trainer's own */
   readonly steered_by: "page" | "trainer";
 }
@@ -61,6 +91,13 @@ export interface Reset {
   readonly type: "reset";
 }
 
+/** Something to be drawn on the tissue while a step is on. */
+export interface TaskMark {
+  readonly place_m: readonly [number, number];
+  readonly radius_m: number;
+  readonly hand: "left" | "right";
+}
+
 /** The block: it covers 0 <= x <= size_m[0] and 0 <= y <= size_m[1], its rest surface is z = 0. */
 export interface TissueSize {
   readonly name: string;
@@ -69,7 +106,7 @@ export interface TissueSize {
   readonly layers: readonly LayerSize[];
 }
 
-export type ServerMessage = Hello | Notice;
+export type ServerMessage = Hello | Guiding | Notice;
 
 export type ClientMessage = Acknowledgement | Reset;
 

@@ -1,7 +1,7 @@
 /** The WebSocket to the trainer: connects, says what came, connects again after a while when it was lost. */
 
 import type { HandlePose } from "../instrument/pose";
-import { type Hello, type Notice, readServerMessage, WireError } from "./messages";
+import { type Guiding, type Hello, type Notice, readServerMessage, WireError } from "./messages";
 import { Newest } from "./newest";
 import { writePose } from "./pose";
 import { Sending } from "./sending";
@@ -14,6 +14,7 @@ export type Connection = "connecting" | "open" | "lost" | "refused";
 
 export interface Listener {
   hello(hello: Hello): void;
+  guiding(guiding: Guiding): void;
   notice(notice: Notice): void;
   connection(state: Connection, reason: string): void;
 }
@@ -70,6 +71,10 @@ export class Link {
       const message = readServerMessage(data);
       if (message.type === "notice") {
         this.listener.notice(message);
+        return;
+      }
+      if (message.type === "guiding") {
+        this.listener.guiding(message);
         return;
       }
       this.greeted = true;

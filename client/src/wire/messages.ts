@@ -1,8 +1,8 @@
 /** The text half of the live stream: what the server says in JSON, checked before anything uses it. */
 
-import { type Hello, type InstrumentShape, type Notice, PROTOCOL } from "./contract";
+import { type Guiding, type Hello, type InstrumentShape, type Notice, PROTOCOL } from "./contract";
 
-export type { Hello, InstrumentShape, Notice } from "./contract";
+export type { Guiding, Hello, InstrumentShape, Notice, TaskMark } from "./contract";
 export type Tip = InstrumentShape["tip"];
 
 /** What came is not what the contract says; the message is a sentence for the user. */
@@ -10,10 +10,11 @@ export class WireError extends Error {}
 
 const LEVELS: readonly unknown[] = ["info", "warning", "stopped"];
 const STEERERS: readonly unknown[] = ["page", "trainer"];
+const STATES: readonly unknown[] = ["running", "marking", "finished", "interrupted"];
 const TIPS: readonly unknown[] = ["probe", "grasper", "needle-holder", "hook"];
 
 /** Read one text message of the server. */
-export function readServerMessage(text: string): Hello | Notice {
+export function readServerMessage(text: string): Hello | Guiding | Notice {
   let message: unknown;
   try {
     message = JSON.parse(text);
@@ -23,6 +24,7 @@ export function readServerMessage(text: string): Hello | Notice {
   const type = field(message, "type");
   if (type === "notice") return readNotice(message);
   if (type === "hello") return readHello(message);
+  if (type === "guiding") return readGuiding(message);
   throw new WireError(`The trainer sent a message of unknown type ${JSON.stringify(type)}.`);
 }
 
@@ -32,6 +34,20 @@ function readNotice(message: unknown): Notice {
     throw new WireError("The trainer sent a notice without a level or a text.");
   }
   return notice;
+}
+
+function readGuiding(message: unknown): Guiding {
+  const guiding = message as Guiding;
+  const sound =
+    STATES.includes(guiding.state) &&
+    [guiding.attempt, guiding.step, guiding.mistakes, guiding.time_s, guiding.left_s].every(Number.isFinite) &&
+    [guiding.words, guiding.hint, guiding.mistake, guiding.reason].every((text) => typeof text === "string") &&
+    isNumbers(guiding.least_n, 2) &&
+    isNumbers(guiding.most_n, 2) &&
+    Array.isArray(guiding.marks) &&
+    guiding.marks.every((mark) => isNumbers(mark.place_m, 2) && mark.radius_m > 0);
+  if (!sound) throw new WireError("The trainer's guidance lacks what this page needs to show it.");
+  return guiding;
 }
 
 function readHello(message: unknown): Hello {
@@ -53,6 +69,7 @@ function readHello(message: unknown): Hello {
     Number.isFinite(hello.linear_force_n) &&
     Number.isFinite(hello.rate_hz) &&
     STEERERS.includes(hello.steered_by) &&
+    typeof hello.lessons === "boolean" &&
     Array.isArray(hello.instruments) &&
     hello.instruments.length === 2 &&
     hello.instruments.every(isInstrument);

@@ -110,7 +110,7 @@ def train(
     if records.note:
         log.print(records.note)
     with log.status("laying the tissue and its waves out ...") as status:
-        trainer = Trainer(set_stage(tissue, ports=ports, model=model), device=hands)
+        trainer = Trainer(set_stage(tissue, ports=ports, model=model), device=hands, lessons=True)
         try:
             status.update("starting the servo; the first time its code is compiled, a minute or so ...")
             trainer.open()

@@ -71,6 +71,7 @@ class Hello(Message):
     camera: Camera
     linear_force_n: float = Field(description="up to this force the tissue's answer is trusted as linear")
     rate_hz: float = Field(description="requested ticks of the servo in a second")
+    lessons: bool = Field(default=False, description="whether there are tasks to do, under /api/tasks")
     steered_by: Literal["page", "trainer"] = Field(
         default="page",
         description="whose hands move the instruments: the page's, or a device of the trainer's own",

@@ -70,11 +70,12 @@ class Stage:
             and (self.model, self.size) == (LIVE_MODELS[0], LIVE_SIZE)
         )
 
-    def hello(self, *, by_page: bool) -> Hello:
+    def hello(self, *, by_page: bool, lessons: bool = False) -> Hello:
         """Return what a page must know to draw it.
 
         Args:
             by_page: whether the page's hands move the instruments.
+            lessons: whether there are tasks to do.
         """
         middle = (self.size[0] / 2, self.size[1] / 2, 0.0)
         return Hello(
@@ -90,6 +91,7 @@ class Stage:
             camera=Camera(port_m=(middle[0], middle[1] - _CAMERA_BACK, _CAMERA_UP), target_m=middle),
             linear_force_n=self.linear_force,
             rate_hz=round(1 / self.scene.dt, 6),
+            lessons=lessons,
             steered_by="page" if by_page else "trainer",
         )
 

@@ -44,12 +44,13 @@ class Trainer:
     Args:
         stage: what the page is shown of, at first.
         device: what moves the instruments; the page's hands if not given.
+        lessons: whether there are tasks to do with it.
     """
 
-    def __init__(self, stage: Stage, *, device: Device | None = None) -> None:
+    def __init__(self, stage: Stage, *, device: Device | None = None, lessons: bool = False) -> None:
         self._device = WebDevice(instruments=stage.instruments) if device is None else device
-        self._stage = stage
-        self._hello = stage.hello(by_page=self._device.steered_by_page)
+        self._lessons = lessons
+        self._stage, self._hello = stage, self._greeting(stage)
         self._servo = _servo_of(stage)
         self._notices: deque[Notice] = deque(maxlen=16)
         self._guiding: Guiding | None = None
@@ -118,8 +119,7 @@ class Trainer:
             servo = _servo_of(stage)
             servo.start()
             before, self._servo = self._servo, servo
-            self._stage = stage
-            self._hello = stage.hello(by_page=self._device.steered_by_page)
+            self._stage, self._hello = stage, self._greeting(stage)
             before.close()
             if self._ended.is_set():
                 servo.close()
@@ -200,6 +200,9 @@ class Trainer:
         self._servo.beat()
         if not self._servo.alive and not self._ended.is_set():
             self._revive()
+
+    def _greeting(self, stage: Stage) -> Hello:
+        return stage.hello(by_page=self._device.steered_by_page, lessons=self._lessons)
 
     def _follow(self, instrument: int, pose: HandlePose, sequence: int) -> None:
         self._servo.command(
