@@ -12,6 +12,11 @@ from trocar.errors import TrocarError
 from trocar.records.store import Records
 
 
+def say(text):
+    sys.stdout.write(f"{text}\n")
+    sys.stdout.flush()
+
+
 def piece(number):
     return number.to_bytes(4, "big") * 5000
 
@@ -21,7 +26,7 @@ def main(folder, limit=None):
         attempt = records.begin(
             records.trainee("Anna"), task="palpate", level=1, device="web", header={}, dt=1e-3
         )
-        print(f"begun {attempt}", flush=True)
+        say(f"begun {attempt}")
         if limit is not None:
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (int(limit), resource.RLIM_INFINITY))
@@ -29,12 +34,12 @@ def main(folder, limit=None):
             try:
                 records.add(attempt, piece(number), 20)
             except TrocarError as error:
-                print(f"{type(error).__name__} {error}", flush=True)
+                say(f"{type(error).__name__} {error}")
                 resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
                 records.add(attempt, piece(number), 20)
-                print(number, flush=True)
+                say(number)
                 return
-            print(number, flush=True)
+            say(number)
 
 
 if __name__ == "__main__":
