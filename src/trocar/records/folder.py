@@ -21,21 +21,26 @@ def records_folder() -> Path:
 
 
 def check_folder(folder: Path) -> None:
-    """Refuse a folder that is something else.
+    """Refuse a folder that is something else, or in which something else has the file's name.
 
     Raises:
-        InputError: it is a file.
+        InputError: it is a file, or nothing can be called so.
+        RecordsError: the file is a folder.
     """
+    if "\0" in str(folder):
+        raise InputError("records: folder", "a usable name", str(folder), "it has a null byte")
     for place in (folder, *folder.parents):
         try:
             if place.is_dir():
-                return
+                break
             if place.exists() or place.is_symlink():
                 advice = f"name another folder, or set {VARIABLE} to one"
                 raise InputError(f"records: {place}", "a folder", "a file", advice)
-        except (OSError, ValueError) as error:  # a name too long, a null byte
-            reason = getattr(error, "strerror", None) or str(error)
+        except OSError as error:  # a name too long, a folder that may not be looked into
+            reason = error.strerror or str(error)
             raise InputError("records: folder", "a usable name", str(folder), reason) from None
+    if (folder / FILE).is_dir():
+        raise RecordsError(f"{folder / FILE}: expected a file, got a folder; move it away, or set {VARIABLE}")
 
 
 def make_folder(folder: Path) -> None:

@@ -1,6 +1,8 @@
 """A trainee's way through one task: every finished attempt, whether luck explains it, and what remains to be done.
 
-Interrupted attempts do not count: nobody can say how they would have ended.
+A limit of the chart counts as crossed where it is reached, as in Wald's test (1945, Ann Math Stat 16:117), so that
+with the usual rates two failures in a row are an alarm. Interrupted attempts do not count: nobody can say how they
+would have ended.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ from trocar.records.rows import AttemptRow, stamp
 from trocar.training.practice import Cusum, proficient
 
 IN_A_ROW = 2  # passes one after the other that make a trainee proficient, as FLS asks for
+_ROUNDING = 1e-9  # at the usual rates two failures reach the alarm exactly: ln 9 = 2 ln 3
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six")
 
 
@@ -105,5 +108,5 @@ class History:
 
 def _first(distances: FloatArray, limit: float) -> int | None:
     """Return where a distance first reaches a limit, or None; the first of them is before any attempt."""
-    reached = np.flatnonzero(distances >= limit)
+    reached = np.flatnonzero(distances >= limit - _ROUNDING)
     return int(reached[0]) if len(reached) else None

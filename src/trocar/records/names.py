@@ -15,9 +15,14 @@ def trainee_name(text: str) -> str:
     Raises:
         InputError: nothing is left, it is too long, or a character in it cannot be printed.
     """
-    name = normalize("NFC", text).strip()
+    name = as_kept(text)
     if not 1 <= len(name) <= LONGEST:
         raise InputError("trainee: name", f"1 to {LONGEST} characters", text)
     if not name.isprintable():
         raise InputError("trainee: name", "characters that can be printed, on one line", text)
     return name
+
+
+def as_kept(text: str) -> str:
+    """Return how a name is spelt in the records, whether anyone has it or not."""
+    return normalize("NFC", text).strip()

@@ -3,8 +3,8 @@
 Each trainee counts once, with what was answered last: tests of two groups ask for answers that do not depend on each
 other. Where too few answered, there is no number but how many would be needed.
 
-Quartiles are Hyndman and Fan's second definition (1996, Am Stat 50:361): the inverse of the empirical distribution, halves
-where it is flat, so that half a step is the finest there is on a scale of whole ones.
+Quartiles are Hyndman and Fan's second definition (1996, Am Stat 50:361): the inverse of the empirical distribution,
+halfway where it is flat, so that half a step is the finest there is on a scale of whole ones.
 
 Cronbach's alpha (1951, Psychometrika 16:297, equation 2), over those who answered every item:
 
@@ -13,10 +13,10 @@ Cronbach's alpha (1951, Psychometrika 16:297, equation 2), over those who answer
 with k items, V_i the variance of an item and V_t that of the sums over items. It grows with the number of items and
 says nothing about whether they ask for one thing.
 
-Mann and Whitney's U (1947, Ann Math Stat 18:50) counts the pairs in which a of group A is above b of group B, ties half.
-Its p is two-sided: exact over all ways to divide the given answers, ties included, where those are few, otherwise from
-the normal approximation with the variance corrected for ties and a correction for continuity. Items are tested one by
-one, and p is not corrected for their number.
+Mann and Whitney's U (1947, Ann Math Stat 18:50) counts the pairs in which a of group A is above b of group B, ties
+half. Its p is two-sided: exact over all ways to divide the given answers, ties included, where those are few,
+otherwise from the normal approximation with the variance corrected for ties and a correction for continuity. Items are
+tested one by one, and p is not corrected for their number.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import comb
+from typing import Literal
 
 import numpy as np
 from scipy.stats import PermutationMethod, mannwhitneyu
@@ -48,6 +49,17 @@ class Middle:
     n: int
     quartiles: tuple[float, float, float] | None
 
+    @property
+    def note(self) -> str:
+        """Why there is no number, if there is none."""
+        return _too_few(self.n, FEWEST_FOR_QUARTILES) if self.quartiles is None else ""
+
+    def as_dict(self) -> dict[str, object]:
+        """Return it as JSON takes it."""
+        lower, median, upper = self.quartiles or (None, None, None)
+        found = {"lower_quartile": lower, "median": median, "upper_quartile": upper}
+        return {"item": self.item, "group": self.group, "n": self.n, **found, "note": self.note}
+
 
 @dataclass(frozen=True, kw_only=True)
 class Consistency:
@@ -55,6 +67,19 @@ class Consistency:
 
     n: int
     alpha: float | None
+
+    @property
+    def note(self) -> str:
+        """Why there is no number, if there is none."""
+        if self.alpha is not None:
+            return ""
+        if self.n < FEWEST_FOR_ALPHA:
+            return _too_few(self.n, FEWEST_FOR_ALPHA)
+        return "everyone's answers have the same sum"
+
+    def as_dict(self) -> dict[str, object]:
+        """Return it as JSON takes it."""
+        return {"n": self.n, "alpha": self.alpha, "note": self.note}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,6 +106,24 @@ class Difference:
     def chance(self) -> float | None:
         """That one of the first group agrees more than one of the second, ties half: U/(n_a n_b)."""
         return None if self.u is None else self.u / (self.n_a * self.n_b)
+
+    @property
+    def note(self) -> str:
+        """Why there is no number, if there is none."""
+        return _too_few(min(self.n_a, self.n_b), FEWEST_PER_GROUP) if self.u is None else ""
+
+    def as_dict(self) -> dict[str, object]:
+        """Return it as JSON takes it."""
+        return {
+            "item": self.item,
+            "n_a": self.n_a,
+            "n_b": self.n_b,
+            "u": self.u,
+            "chance": self.chance,
+            "p": self.p,
+            "exact": self.exact,
+            "note": self.note,
+        }
 
 
 def last_sheets(sheets: Iterable[Sheet]) -> list[Sheet]:
@@ -141,7 +184,8 @@ def cronbach_alpha(answers: FloatArray) -> float:
         raise InputError(
             "alpha: answers", "two persons and items or more, and sums that differ", answers.shape
         )
-    return k / (k - 1) * (1 - float(answers.var(axis=0, ddof=1).sum()) / total)
+    items = float(answers.var(axis=0, ddof=1).sum())
+    return float(k / (k - 1) * (1 - items / total))
 
 
 def differences(sheets: Iterable[Sheet], group_a: str, group_b: str) -> list[Difference]:
@@ -166,9 +210,20 @@ def mann_whitney(a: Sequence[float], b: Sequence[float]) -> tuple[float, float, 
     exact = comb(len(a) + len(b), len(a)) <= MOST_DIVISIONS
     if len({*a, *b}) == 1:  # all the same: every division has this U, and the normal approximation no spread
         return len(a) * len(b) / 2, 1.0, True
-    method = PermutationMethod(n_resamples=MOST_DIVISIONS) if exact else "asymptotic"
-    found = mannwhitneyu(a, b, alternative="two-sided", use_continuity=True, method=method)
+    method: PermutationMethod | Literal["asymptotic"] = (
+        PermutationMethod(n_resamples=MOST_DIVISIONS) if exact else "asymptotic"
+    )
+    found = mannwhitneyu(
+        np.asarray(a, dtype=np.float64),
+        np.asarray(b, dtype=np.float64),
+        alternative="two-sided",
+        method=method,
+    )
     return float(found.statistic), float(found.pvalue), exact
+
+
+def _too_few(n: int, fewest: int) -> str:
+    return f"too few answers: {n}, {fewest} are needed"
 
 
 def _difference(item: str, a: Sequence[float], b: Sequence[float]) -> Difference:

@@ -10,6 +10,7 @@ from sqlalchemy import ColumnElement, Row, func, select
 from sqlalchemy.orm import Session
 
 from trocar.errors import InputError
+from trocar.records.names import as_kept
 from trocar.records.owner import is_gone
 from trocar.records.rows import AttemptRow, KeptAttempt, Metric, Status, Trainee, moment
 from trocar.records.sheets import Sheet
@@ -59,7 +60,7 @@ def attempts(session: Session, *which: ColumnElement[bool]) -> list[AttemptRow]:
 def of(trainee: str | None, task: str | None, level: int | None) -> Iterable[ColumnElement[bool]]:
     """Yield the conditions for attempts of a trainee, a task, a level; None asks for all."""
     if trainee is not None:
-        yield TraineeTable.name == trainee
+        yield TraineeTable.name == as_kept(trainee)
     if task is not None:
         yield AttemptTable.task == task
     if level is not None:

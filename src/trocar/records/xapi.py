@@ -6,10 +6,12 @@ activity are those of ADL's vocabulary. Statements are about attempts that have 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from urllib.parse import quote
 from uuid import UUID, uuid5
 
+from trocar.errors import InputError
 from trocar.records.rows import AttemptRow, Metric, Status, stamp
 from trocar.records.tidy import column, pseudonym
 
@@ -37,7 +39,12 @@ def statements(
         metrics: by the attempt's number.
         home_page: address of the place whose names the trainees' are.
         pseudonymous: whether trainees are numbers instead of names.
+
+    Raises:
+        InputError: the home page is no address.
     """
+    if not re.fullmatch(r"https?://[^\s<>\"{}|\\^`]+", home_page):
+        raise InputError("xapi: home page", "an address such as https://hospital.example/", home_page)
     return [
         _statement(row, metrics.get(row.id, ()), home_page, pseudonym(row) if pseudonymous else row.trainee)
         for row in attempts
