@@ -57,7 +57,7 @@ def peak_stress_ratio(attempt: Attempt) -> float:
 
 def work_on_tissue(attempt: Attempt) -> float:
     """Return the most that both tips had worked on the tissue since neither touched it [J]; 0 without a touch."""
-    touched = attempt.touching.any(axis=1)
+    touched = np.asarray(attempt.touching.any(axis=1))
     done = np.cumsum(np.where(touched, work(attempt).sum(axis=1), 0.0))
     begins = touched & ~np.concatenate([[False], touched[:-1]])
     before = np.concatenate([[0.0], done[:-1]])
