@@ -12,9 +12,10 @@ as for a conditioned normal distribution. Jaws touch as one closed nose, open or
 
 from __future__ import annotations
 
-from math import cos, inf, sin, sqrt
+from math import cos, inf, pi, sin, sqrt
 from typing import NamedTuple
 
+import numpy as np
 from numba import njit
 
 from trocar.contact.instrument import TipKind
@@ -44,6 +45,15 @@ TIPS = {
     TipKind.NEEDLE_HOLDER: TipShape((0.5, 0.5, 0.7), (0.0, 0.0, 0.7), True),
     TipKind.HOOK: TipShape((0.26, 0.96, 0.26), (0.0, 0.88, 0.26), False),
 }
+
+
+def largest_sections(axes: FloatArray) -> FloatArray:
+    """Return the area of each ellipsoid's largest plane section, which is also its largest shadow [m^2], shape (n,).
+
+    Args:
+        axes: semi-axes [m], shape (n, 3).
+    """
+    return np.asarray(pi * np.prod(np.sort(axes, axis=1)[:, 1:], axis=1), dtype=np.float64)
 
 
 @njit(cache=True)

@@ -13,11 +13,13 @@ from math import isfinite, nan
 
 import numpy as np
 
+from trocar.contact.tips import largest_sections
 from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.simulation import DT, POSE, RECORD, Scene, advance, at_rest, make_scene, played
 from trocar.simulation.live import live_model
 from trocar.tissues.catalogue import tissue
+from trocar.tissues.tissue import Tissue
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.metrics.measures import MEASURES, measured
 from trocar.training.players import Player
@@ -145,8 +147,8 @@ def perform(task: Task, player: Player, *, watch: Callable[[float], None] = lamb
     return Recording(poses=np.stack(poses), dt=scene.dt)
 
 
-def assess(task: Task, recording: Recording) -> Card:
-    """Play a recording through the task's scene and mark it.
+def replayed(task: Task, recording: Recording) -> tuple[Attempt, Progress]:
+    """Play a recording through the task's scene, up to its last step's end: what comes after is nobody's business.
 
     Raises:
         InputError: nobody holds an instrument in it, or its ticks are not the scene's.
@@ -156,7 +158,7 @@ def assess(task: Task, recording: Recording) -> Card:
         raise InputError("recording: dt", f"{scene.dt:g} s, the scene's tick", f"{recording.dt:g} s")
     records, times = recording.played(scene), recording.times
     progress = Progress(task)
-    ticks = 0  # what comes after the last step is nobody's business
+    ticks = 0
     for time, both in zip(times, records, strict=True):
         if progress.done:
             break
@@ -167,11 +169,30 @@ def assess(task: Task, recording: Recording) -> Card:
         records=records[:ticks],
         force_limit=task.force_limit,
         ideal_length=task.ideal_length if progress.done else nan,
+        errors=len(progress.mistakes),
+        strength=_weakest(tissue(task.tissue)),
+        sections=largest_sections(scene.axes),
     )
+    return attempt, progress
+
+
+def assess(task: Task, recording: Recording) -> Card:
+    """Play a recording through the task's scene and mark it.
+
+    Raises:
+        InputError: nobody holds an instrument in it, or its ticks are not the scene's.
+    """
+    return marked(task, *replayed(task, recording))
+
+
+def marked(task: Task, attempt: Attempt, progress: Progress) -> Card:
+    """Mark an attempt that was played."""
     metrics = measured(attempt)
-    errors = len(progress.mistakes)
     found = score(
-        task.marking, time=attempt.duration, errors=errors, over_limit=metrics["time_over_limit"]
+        task.marking,
+        time=attempt.duration,
+        errors=len(progress.mistakes),
+        over_limit=metrics["time_over_limit"],
     ) * float(progress.done)
     passed = progress.done and found >= task.marking.pass_score
     return Card(
@@ -184,6 +205,13 @@ def assess(task: Task, recording: Recording) -> Card:
         metrics=metrics,
         mistakes=tuple(progress.mistakes),
         advice=tuple(_advice(task, progress, metrics)),
+    )
+
+
+def _weakest(layers: Tissue) -> float:
+    """Return the least tensile strength that a layer states [Pa]; nan where none does."""
+    return min(
+        (layer.tensile_strength for layer in layers.layers if isfinite(layer.tensile_strength)), default=nan
     )
 
 

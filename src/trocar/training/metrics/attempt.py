@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from math import inf, nan
 
 import numpy as np
 
 from trocar.contact.instrument import NAMES
 from trocar.errors import InputError
 from trocar.model import FloatArray
-from trocar.simulation import DIRECTION, FORCE, OUTSIDE, RECORD, RECORD_ROLL, TIP, TOUCH, TOUCH_PRESENT
+from trocar.simulation import (
+    DIRECTION,
+    FORCE,
+    OUTSIDE,
+    RECORD,
+    RECORD_ROLL,
+    TIP,
+    TOUCH,
+    TOUCH_PRESENT,
+    TOUCH_TOUCHING,
+)
 from trocar.training.metrics.motion import SHORTEST, SmoothPath, smooth_path
 
 USED = 5e-3  # [m] an instrument whose tip stayed within less was not used: a hand at rest trembles
@@ -25,12 +36,18 @@ class Attempt:
         records: as `simulation.advance` writes them, shape (n, 2, RECORD).
         force_limit: the force a task asks to stay below [N].
         ideal_length: of the shortest way that does the task, both tips together [m]; nan where there is none.
+        errors: mistakes that the task's steps saw; nan where nobody looked.
+        strength: tensile strength of the weakest layer that states one [Pa]; nan where none does.
+        sections: areas of both tips' largest plane sections [m^2], shape (2,).
     """
 
     times: FloatArray
     records: FloatArray
-    force_limit: float = float("inf")
-    ideal_length: float = float("nan")
+    force_limit: float = inf
+    ideal_length: float = nan
+    errors: float = nan
+    strength: float = nan
+    sections: FloatArray = field(default_factory=lambda: np.full(len(NAMES), nan))
 
     def __post_init__(self) -> None:
         wanted = (len(self.times), len(NAMES), RECORD)
@@ -64,6 +81,11 @@ class Attempt:
     def forces(self) -> FloatArray:
         """Absolute force on each tip [N], shape (n, 2)."""
         return np.asarray(np.linalg.norm(self.records[:, :, FORCE : FORCE + 3], axis=2), dtype=np.float64)
+
+    @property
+    def touching(self) -> np.ndarray:
+        """Whether each tip touches the tissue, shape (n, 2)."""
+        return np.asarray((self.records[:, :, TOUCH].astype(np.int64) & TOUCH_TOUCHING) != 0)
 
     @property
     def duration(self) -> float:

@@ -13,6 +13,14 @@ import numpy as np
 
 from trocar.model import FloatArray
 from trocar.training.metrics.attempt import ROLL, SHAFT, WITHDRAWN, Attempt
+from trocar.training.metrics.forces import (
+    impulse,
+    peak_force,
+    peak_stress_ratio,
+    rms_force,
+    time_over_limit,
+    work_on_tissue,
+)
 from trocar.training.metrics.motion import RATE, SmoothPath
 from trocar.training.metrics.smoothness import (
     MOVING,
@@ -20,8 +28,6 @@ from trocar.training.metrics.smoothness import (
     log_dimensionless_jerk,
     sparc_of_movements,
 )
-
-TOUCHING = 1e-3  # [N] less is no touch, for the root mean square
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,29 +129,6 @@ def _both_speeds(attempt: Attempt) -> FloatArray | None:
     if len(times) < 2:
         return None
     return np.stack([np.interp(times, tip.times, tip.speed) for tip in (left, right)])
-
-
-def peak_force(attempt: Attempt) -> float:
-    """Return the largest force on either tip [N]."""
-    return float(attempt.forces.max())
-
-
-def rms_force(attempt: Attempt) -> float:
-    """Return the root mean square of a tip's force while it touches [N]; 0 where none ever does."""
-    forces = attempt.forces
-    touching = forces[forces > TOUCHING]
-    return float(np.sqrt(np.mean(touching**2))) if len(touching) else 0.0
-
-
-def impulse(attempt: Attempt) -> float:
-    """Return the time integral of the force on both tips [N s]."""
-    return float(np.trapezoid(attempt.forces.sum(axis=1), attempt.times))
-
-
-def time_over_limit(attempt: Attempt) -> float:
-    """Return how long either tip pressed or pulled more than the task allows [s]."""
-    over = (attempt.forces > attempt.force_limit).any(axis=1).astype(np.float64)
-    return float(np.trapezoid(over, attempt.times))
 
 
 MEASURES = (
@@ -268,5 +251,29 @@ MEASURES = (
         source="this trainer's tasks",
         cannot_tell="by how much",
         of=time_over_limit,
+    ),
+    Measure(
+        name="peak_stress_ratio",
+        unit="1",
+        formula="max |F|/(A sigma), A the largest section of the tip, sigma the weakest layer's tensile strength",
+        source="this trainer's; for harm by stress: De et al. 2007, Int J Robot Res 26:1159",
+        cannot_tell="harm: the stress is the least it can be, and living tissue suffers long before it tears",
+        of=peak_stress_ratio,
+    ),
+    Measure(
+        name="work_on_tissue",
+        unit="J",
+        formula="max over touches of -sum (F dr + M dtheta) of both tips since neither touched",
+        source="mechanics; the live contact gives back no more than was put in",
+        cannot_tell="what the tissue stored from what friction and damping took",
+        of=work_on_tissue,
+    ),
+    Measure(
+        name="errors",
+        unit="1",
+        formula="number of mistakes that the task's steps saw",
+        source="this trainer's tasks",
+        cannot_tell="small from great ones; it is in the score already",
+        of=lambda attempt: float(attempt.errors),
     ),
 )

@@ -39,6 +39,8 @@ class Progress:
         self.number = 0
         """Of the step that is on, from 0; as many as there are when all is done."""
         self.mistakes: list[Mistake] = []
+        self.ended: list[float] = []
+        """When each step that is done ended [s], in order."""
         self._met_since: float | None = None
         self._begins = (
             True  # a step: what was right for the last one is no mistake in this, until it has ended
@@ -78,6 +80,7 @@ class Progress:
             self._met_since = moment.time
         if moment.time - self._met_since >= step.lasting:
             self.number += 1
+            self.ended.append(moment.time)
             self._met_since = None
             self._begins = True
 
