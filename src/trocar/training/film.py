@@ -10,9 +10,9 @@ from numba import njit
 
 from trocar.model import FloatArray
 from trocar.simulation import RECORD, Scene, SceneState, advance, amplitudes, at_rest, come_to_rest
-from trocar.training.session import Recording, scene_of
-from trocar.training.tasks.moment import Moment
-from trocar.training.tasks.progress import Mistake, Progress
+from trocar.training.metrics.attempt import Attempt
+from trocar.training.session import Recording, judged, scene_of
+from trocar.training.tasks.progress import Progress
 from trocar.training.tasks.task import Task
 
 EVERY = 40  # ticks between pictures: 25 a second
@@ -26,22 +26,25 @@ class Film:
         every: time from one to the next [s]; the first is one such time after the start.
         records: of both instruments, shape (n, 2, RECORD).
         amplitudes: of the waves [m], shape (n, layers, M, N).
-        steps: when each of the task's steps was done [s], as many as were.
-        mistakes: in order.
+        attempt, progress: what the task saw of it.
     """
 
     every: float
     records: FloatArray
     amplitudes: npt.NDArray[np.float32]
-    steps: tuple[float, ...]
-    mistakes: tuple[Mistake, ...]
+    attempt: Attempt
+    progress: Progress
 
     def __len__(self) -> int:
         return len(self.records)
 
 
 def film(task: Task, recording: Recording) -> Film:
-    """Play a recording in its task's scene and keep a picture every 40 ticks."""
+    """Play a recording in its task's scene and keep a picture every 40 ticks.
+
+    Raises:
+        InputError: nobody holds an instrument in it.
+    """
     scene = scene_of(task)
     count = len(recording.poses) // EVERY
     pictures = np.zeros((count, scene.layers, *scene.modes), np.float32)
@@ -50,18 +53,13 @@ def film(task: Task, recording: Recording) -> Film:
     resets[list(recording.resets)] = True
     picture = np.zeros(pictures.shape[1:])
     _expose(scene, at_rest(scene), recording.poses, resets, records, picture, pictures)
-    progress, steps = Progress(task), []
-    for time, both in zip(recording.times.tolist(), records, strict=True):
-        done = progress.number
-        progress.advance(Moment(time, both))
-        if progress.number > done:
-            steps.append(time)
+    attempt, progress = judged(task, recording.times, records)
     return Film(
         every=EVERY * recording.dt,
         records=records[EVERY - 1 :: EVERY],
         amplitudes=pictures,
-        steps=tuple(steps),
-        mistakes=tuple(progress.mistakes),
+        attempt=attempt,
+        progress=progress,
     )
 
 

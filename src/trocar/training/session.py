@@ -156,7 +156,20 @@ def replayed(task: Task, recording: Recording) -> tuple[Attempt, Progress]:
     scene = scene_of(task)
     if recording.dt != scene.dt:
         raise InputError("recording: dt", f"{scene.dt:g} s, the scene's tick", f"{recording.dt:g} s")
-    records, times = recording.played(scene), recording.times
+    return judged(task, recording.times, recording.played(scene))
+
+
+def judged(task: Task, times: FloatArray, records: FloatArray) -> tuple[Attempt, Progress]:
+    """Let a task see what came of an attempt, up to its last step's end.
+
+    Args:
+        task: what was attempted.
+        times: of the ticks [s], shape (n,).
+        records: of both instruments in the task's scene, shape (n, 2, RECORD).
+
+    Raises:
+        InputError: nobody holds an instrument in it.
+    """
     progress = Progress(task)
     ticks = 0
     for time, both in zip(times, records, strict=True):
@@ -171,7 +184,7 @@ def replayed(task: Task, recording: Recording) -> tuple[Attempt, Progress]:
         ideal_length=task.ideal_length if progress.done else nan,
         errors=len(progress.mistakes),
         strength=_weakest(tissue(task.tissue)),
-        sections=largest_sections(scene.axes),
+        sections=largest_sections(scene_of(task).axes),
     )
     return attempt, progress
 

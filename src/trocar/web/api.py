@@ -13,16 +13,24 @@ from fastapi.responses import JSONResponse, Response
 from pydantic import BaseModel, ConfigDict, Field
 
 from trocar.errors import InputError, TrocarError
+from trocar.records.learning import IN_A_ROW
 from trocar.records.questionnaire import GROUPS, ITEMS, SCALE
 from trocar.records.rows import KeptAttempt
-from trocar.training.tasks.catalogue import LEVELS, TASKS, task
+from trocar.training.figures.cusum import cusum
+from trocar.training.figures.forces import forces
+from trocar.training.figures.learning_curve import learning_curve
+from trocar.training.figures.paths import paths
+from trocar.training.figures.time_spent import time_spent
+from trocar.training.tasks.catalogue import LEVELS, TASKS
+from trocar.training.tasks.catalogue import task as task_by_name
 from trocar.web.films import MOST_FRAMES, Films, Screening
 from trocar.web.lessons import BusyError, Lessons
 from trocar.web.messages import Hello
 
 _Number = Annotated[int, Path(ge=1, le=2**53)]
 _Level = Annotated[int, Path(ge=1, le=9)]
-_FRAMES = "application/octet-stream"
+_FRAMES, _SVG = "application/octet-stream", "image/svg+xml"
+_FIGURES = {"forces": forces, "paths": paths, "time": time_spent}
 
 
 class _Asked(BaseModel):
@@ -84,7 +92,7 @@ def routes(lessons: Lessons) -> APIRouter:
 
     @api.get("/tasks", summary="Every task at every level")
     def tasks() -> list[dict[str, object]]:
-        return [task(name, level).as_dict() for name in TASKS for level in LEVELS]
+        return [task_by_name(name, level).as_dict() for name in TASKS for level in LEVELS]
 
     @api.get("/tasks/{name}/{level}/film", summary="The scripted expert at a task")
     def expert(name: str, level: _Level) -> FilmSheet:
@@ -130,6 +138,32 @@ def routes(lessons: Lessons) -> APIRouter:
     @api.get("/attempts/{number}/film/frames", summary="Frames of it", response_class=Response)
     def frames(number: _Number, first: int = 0, count: int = 25) -> Response:
         return Response(films.of_attempt(kept(number)).frames(first, count), media_type=_FRAMES)
+
+    @api.get("/attempts/{number}/figures/{name}.svg", summary="A picture of it", response_class=Response)
+    def figure(number: _Number, name: Literal["forces", "paths", "time"]) -> Response:
+        shown = films.of_attempt(kept(number))
+        expert = films.of_expert(shown.task.name, shown.task.level)
+        drawn = _FIGURES[name](
+            shown.film.attempt, shown.film.progress, (expert.film.attempt, expert.film.progress)
+        )
+        return Response(drawn, media_type=_SVG)
+
+    @api.get("/history/figures/{name}.svg", summary="A picture of it", response_class=Response)
+    def chart(
+        name: Literal["learning", "cusum"],
+        trainee: Annotated[str, Query(max_length=200)],
+        task: Annotated[str, Query(max_length=80)],
+        level: int = 1,
+    ) -> Response:
+        practised = task_by_name(task, level)
+        history = records.history(trainee, task, level)
+        if name == "cusum":
+            return Response(cusum([not one for one in history.passed], history.cusum), media_type=_SVG)
+        scores = [row.score or 0.0 for row in history.rows]
+        drawn = learning_curve(
+            scores, history.passed, pass_score=practised.marking.pass_score, in_a_row=IN_A_ROW
+        )
+        return Response(drawn, media_type=_SVG)
 
     @api.get("/history", summary="A trainee's way through one task")
     def history(
@@ -186,9 +220,9 @@ def _sheet(screening: Screening, attempt: int | None) -> FilmSheet:
         every_s=shown.every,
         frame_bytes=len(screening.frames(0, 1)) if len(shown) else 0,
         most_frames=MOST_FRAMES,
-        steps_s=shown.steps,
+        steps_s=tuple(shown.progress.ended),
         mistakes=tuple(
-            {"time_s": one.time, "step": one.step + 1, "words": one.words} for one in shown.mistakes
+            {"time_s": one.time, "step": one.step + 1, "words": one.words} for one in shown.progress.mistakes
         ),
         hello=screening.stage.hello(by_page=False),
     )

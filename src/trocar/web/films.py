@@ -106,7 +106,9 @@ class Films:
         task = task_by_name(kept.row.task, kept.row.level)
         recording = recorded(*self._records.chunks(kept.row.id))
         if len(recording.poses) == 0:
-            raise InputError(f"attempt {kept.row.id}", "one with a recording", "one of which nothing was recorded")
+            raise InputError(
+                f"attempt {kept.row.id}", "one with a recording", "one of which nothing was recorded"
+            )
         return Screening(task=task, stage=stage_of(task), film=film(task, recording), recording=recording)
 
     def _found(self, key: Hashable, make: Callable[[], Screening]) -> Screening:

@@ -112,9 +112,7 @@ class Lessons:
         if not self._trainer.stage.suits(task):
             self._trainer.enter(stage_of(task))
 
-    def _follow(
-        self, number: int, live: LiveAttempt, stop: threading.Event, closed: threading.Event
-    ) -> None:
+    def _follow(self, number: int, live: LiveAttempt, stop: threading.Event, closed: threading.Event) -> None:
         """Be an attempt's thread."""
         told = -_TOLD_EVERY
         guidance = live.look()
