@@ -259,9 +259,9 @@ def test_a_read_only_folder_is_not_read_without_what_waits_beside_the_file(
         attempt(records)
         for end in ("", "-wal"):  # as a copy of the folder of a killed process may be
             copy(tmp_path / f"records.db{end}", reachable)
-    with without_rights(reachable):
-        with pytest.raises(RecordsError, match=r"records.db-wal holds attempts.*copy the folder"):
-            Records.open(reachable, writing=False)
+    waits = pytest.raises(RecordsError, match=r"records.db-wal holds attempts.*copy the folder")
+    with without_rights(reachable), waits:
+        Records.open(reachable, writing=False)
     with Records.open(reachable, writing=False) as reader:
         assert len(reader.attempts()) == 1
 

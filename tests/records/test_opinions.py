@@ -1,6 +1,7 @@
 """What answers say, against numbers from print and from hand."""
 
 from datetime import UTC, datetime, timedelta
+from math import erfc, sqrt
 
 import numpy as np
 import pytest
@@ -93,8 +94,6 @@ def test_many_answers_take_the_normal_approximation_corrected_for_ties():
     a, b = [1] * 6 + [2] * 4, [1] * 2 + [2] * 8
     # U = 6 x 2 / 2 + 4 x 2 + 4 x 8 / 2 = 30; ties of 8 and 12 leave the variance
     # 100/12 (21 - (8^3 - 8 + 12^3 - 12)/(20 x 19)) = 480/19, so z = (50 - 30 - 1/2)/sqrt(480/19).
-    from math import erfc, sqrt
-
     z = 19.5 / sqrt(100 / 12 * (21 - (8**3 - 8 + 12**3 - 12) / 380))
     assert mann_whitney(a, b) == (30, pytest.approx(erfc(z / sqrt(2))), False)
 

@@ -117,7 +117,7 @@ def print_opinions(
         if each.u is None or each.p is None or each.chance is None:
             apart.add_row(each.item, "", "", each.note)
         else:
-            apart.add_row(each.item, f"{each.u:g}", f"{each.chance:.0%}", f"{each.p:.3f}")
+            apart.add_row(each.item, f"{each.u:g}", f"{each.chance:.0%}", _chance(each.p))
     _print("", apart, "")
     alpha = (
         together.note if together.alpha is None else f"{together.alpha:.2f} ({together.n} complete answers)"
@@ -130,6 +130,10 @@ def say(*sentences: str) -> None:
     console = Console(highlight=False)
     for sentence in sentences:
         console.print(sentence, markup=False, soft_wrap=True)
+
+
+def _chance(p: float) -> str:
+    return f"{p:.3f}" if p >= 0.0005 else "<0.001"
 
 
 def _status(row: AttemptRow) -> str:

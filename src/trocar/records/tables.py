@@ -8,12 +8,15 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from sqlalchemy import Float, ForeignKey, Index, UniqueConstraint
+from sqlalchemy import Float, ForeignKey, Index, MetaData, UniqueConstraint
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
 
 
 class Table(DeclarativeBase):
     """What all tables share."""
+
+    metadata = MetaData()
+    """All of them."""
 
     type_annotation_map: ClassVar[dict[Any, Any]] = {float: Float}  # eight bytes in SQLite, whatever the name
 
