@@ -6,6 +6,8 @@ import { Keyboard } from "./input/keyboard";
 import { listenToKeys, listenToPointer } from "./input/listen";
 import { Mouse } from "./input/mouse";
 import { ScopeKeys } from "./input/scope-keys";
+import { Day } from "./lesson/day";
+import { Replay } from "./lesson/replay";
 import { connectControls, showHeadset, showScope } from "./panel/controls";
 import { byId } from "./panel/element";
 import { makeHelp } from "./panel/help";
@@ -34,13 +36,26 @@ function start(): void {
         active.steers = hello.steered_by === "page";
         trainer.greet(hello);
         panel.active(active.side);
+        day.greet(hello);
       },
+      guiding: (guiding) => day.take(guiding),
       notice: (notice) => panel.notices.take(notice),
       connection: (state, reason) => panel.notices.connected(state, reason),
     },
     () => new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/live`),
   );
-  const trainer = new Trainer(link, panel, theatre, drawn, immersion, [mouse, keyboard, gamepad], scopeKeys);
+  const replay = new Replay();
+  const trainer = new Trainer(link, panel, theatre, drawn, immersion, [mouse, keyboard, gamepad], scopeKeys, replay);
+  const day = new Day({
+    replay,
+    guide: (guiding) => {
+      theatre.guide(guiding);
+      panel.ask(guiding);
+    },
+    say: (level, text) => panel.notices.take({ type: "notice", level, text }),
+    focus: () => picture.focus({ preventScroll: true }),
+    show: (hello) => trainer.screen(hello),
+  });
 
   const scope = (angle: ScopeAngle): void => {
     trainer.chooseScope(angle);

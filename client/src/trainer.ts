@@ -9,8 +9,9 @@ import { NEITHER } from "./input/device";
 import { HeadsetDevice } from "./input/headset";
 import type { ScopeKeys } from "./input/scope-keys";
 import { asHeld, type Drawn } from "./instrument/drawn";
-import { Followed } from "./instrument/followed";
+import { asSeen, Followed } from "./instrument/followed";
 import { Hands } from "./instrument/hands";
+import type { Replay } from "./lesson/replay";
 import { showRim } from "./panel/controls";
 import type { Panel } from "./panel/panel";
 import type { Immersion } from "./scene/immersion";
@@ -27,6 +28,7 @@ const SIDES = [0, 1] as const;
 
 export class Trainer {
   private hello: Hello | null = null;
+  private built: Hello | null = null; // what the theatre shows
   private hands: Hands | null = null;
   private scope = new Scope([0, -0.1, 0.1], [0, 0, 0]);
   private centre: Vector = [0, 0, 0];
@@ -45,6 +47,7 @@ export class Trainer {
     private readonly immersion: Immersion,
     private readonly devices: readonly Device[],
     private readonly scopeKeys: ScopeKeys,
+    private readonly replay: Replay,
   ) {}
 
   /** Take what the trainer says first; the same again, after a lost connection, changes nothing that is held. */
@@ -52,9 +55,21 @@ export class Trainer {
     this.panel.greet(hello);
     this.followed.clear();
     if (JSON.stringify(hello) === JSON.stringify(this.hello)) return;
-    const angle = this.scope.viewAngle;
     this.hello = hello;
     this.hands = new Hands(hello);
+    if (!this.replay.showing) this.look(hello);
+  }
+
+  /** Show another tissue than the live one, without hands; null shows the live one again. */
+  screen(hello: Hello | null): void {
+    const shown = hello ?? this.hello;
+    if (shown) this.look(shown);
+  }
+
+  private look(hello: Hello): void {
+    if (this.built && drawnOf(hello) === drawnOf(this.built)) return;
+    const angle = this.scope.viewAngle;
+    this.built = hello;
     this.scope = new Scope(hello.camera.port_m, hello.camera.target_m);
     this.scope.choose(angle);
     this.centre = [hello.tissue.size_m[0] / 2, hello.tissue.size_m[1] / 2, 0];
@@ -77,19 +92,33 @@ export class Trainer {
     const look = this.scope.look();
     if (this.immersion.presenting) this.immersion.place(xr, this.centre);
     else this.picture.aim(look);
-    this.theatre.showScopePort(!this.immersion.presenting);
+    this.theatre.immerse(this.immersion.presenting);
     showRim(this.scope.viewAngle, this.scope.rim);
-    if (this.steers && this.hands) this.steer(this.hands, look, now, seconds, xr);
     const frame = this.hello && this.newest();
-    if (frame) this.show(frame, now);
-    const drawn = this.steers ? this.held() : this.followed.drawn(now);
-    if (drawn) this.theatre.place(drawn);
+    if (this.replay.showing) this.rerun(look, now, seconds);
+    else {
+      if (this.steers && this.hands) this.steer(this.hands, look, now, seconds, xr);
+      if (frame) this.show(frame, now);
+      const drawn = this.steers ? this.held() : this.followed.drawn(now);
+      if (drawn) this.theatre.place(drawn);
+    }
     this.picture.draw(now, this.centre);
   }
 
   /** Whether the hands of this page move the instruments. */
   private get steers(): boolean {
     return this.hello?.steered_by === "page";
+  }
+
+  /** Show a film in place of the live tissue; the hands stay where they are. */
+  private rerun(look: Look, now: number, seconds: number): void {
+    const hands = this.hands;
+    if (this.steers && hands) for (const side of SIDES) this.link.pose(side, hands.poses[side], now);
+    const frame = this.replay.turn(seconds, now, look, this.centre);
+    if (!frame) return;
+    this.theatre.deform(frame);
+    this.theatre.place([asSeen(frame.instruments[0]), asSeen(frame.instruments[1])]);
+    this.panel.update(frame, now);
   }
 
   private steer(hands: Hands, look: Look, now: number, seconds: number, xr: XRFrame | undefined): void {
@@ -126,4 +155,9 @@ export class Trainer {
       this.holding[side] = state.holding;
     });
   }
+}
+
+/** What of a greeting is drawn. */
+function drawnOf({ tissue, grid, instruments, camera }: Hello): string {
+  return JSON.stringify([tissue, grid, instruments, camera]);
 }

@@ -8,10 +8,13 @@ const SPAN = 2; // full bar, in linear ranges: the mark stands in the middle
 
 export class ForceBar {
   readonly element = make("div", "bar");
-  private readonly value = make("span", "", "0.00 N");
+  private readonly value = make("span", "", "0.000 N");
   private readonly track = make("div", "track");
   private readonly fill = make("div", "fill");
+  private readonly band = make("div", "band");
   private readonly said = make("p", "said");
+  private least = 0; // [N]
+  private most = 0; // [N]; 0 where no force is asked for
 
   /** @param title such as "left: grasper". @param linear the linear range ends here [N]. */
   constructor(
@@ -24,9 +27,19 @@ export class ForceBar {
     this.track.setAttribute("aria-label", `Force, ${title}`);
     this.track.setAttribute("aria-valuemin", "0");
     this.track.setAttribute("aria-valuemax", (SPAN * linear).toFixed(3));
-    this.track.append(this.fill, make("div", "mark"));
+    this.band.hidden = true;
+    this.track.append(this.fill, this.band, make("div", "mark"));
     this.element.append(head, this.track, this.said);
     this.show(0, "");
+  }
+
+  /** Show what force is asked for [N]; no most asks for none. */
+  ask(least: number, most: number): void {
+    [this.least, this.most] = [least, most];
+    this.band.hidden = most === 0;
+    const share = (force: number): string => `${Math.min((100 * force) / (SPAN * this.linear), 100).toFixed(2)}%`;
+    this.band.style.left = share(least);
+    this.band.style.right = `calc(100% - ${share(most)})`;
   }
 
   /** Show what a frame says. */
@@ -38,12 +51,14 @@ export class ForceBar {
 
   private show(force: number, doing: string): void {
     const beyond = force > this.linear;
-    const text = `${force.toFixed(2)} N`;
+    const text = `${force.toFixed(3)} N`;
     say(this.value, text);
-    say(this.said, beyond ? `${doing}, beyond the linear range` : doing);
+    const asked = this.most ? `, asked ${this.least ? `${this.least} to` : "at most"} ${this.most} N` : "";
+    say(this.said, (beyond ? `${doing}, beyond the linear range` : doing) + asked);
+    this.element.dataset["asked"] = !this.most ? "" : force > this.most ? "over" : force < this.least ? "under" : "within";
     this.element.dataset["beyond"] = String(beyond);
     this.fill.style.transform = `scaleX(${Math.min(force / (SPAN * this.linear), 1).toFixed(3)})`;
-    this.track.setAttribute("aria-valuenow", Math.min(force, SPAN * this.linear).toFixed(2));
+    this.track.setAttribute("aria-valuenow", Math.min(force, SPAN * this.linear).toFixed(3));
     this.track.setAttribute("aria-valuetext", beyond ? `${text}, beyond the linear range` : text);
   }
 }

@@ -1,7 +1,7 @@
-/** What stands beside the picture: forces, the servo's figures, the hand in use, the place for a task's steps. */
+/** What stands beside the picture: forces, the servo's figures, the hand in use. */
 
 import type { Frame } from "../wire/frame";
-import type { Hello } from "../wire/messages";
+import type { Guiding, Hello } from "../wire/messages";
 import { byId, say } from "./element";
 import { ForceBar } from "./force-bar";
 import { Notices } from "./notices";
@@ -27,6 +27,11 @@ export class Panel {
     const watching = hello.steered_by === "trainer";
     this.names = hello.instruments.map((shape) => (watching ? "moved by the trainer" : `${shape.name} hand: ${shape.tip}`));
     showSteering(hello.steered_by);
+  }
+
+  /** Show on the bars what force is asked for; null asks for none. */
+  ask(guiding: Guiding | null): void {
+    this.bars.forEach((bar, side) => bar.ask(guiding?.least_n[side] ?? 0, guiding?.most_n[side] ?? 0));
   }
 
   /** Say which instrument mouse and keyboard move. */

@@ -4,12 +4,14 @@ import { Color, Group, Scene } from "three";
 
 import type { Drawn } from "../instrument/drawn";
 import type { Frame } from "../wire/frame";
-import type { Hello, InstrumentShape } from "../wire/messages";
+import type { Guiding, Hello, InstrumentShape } from "../wire/messages";
 import { Block } from "./block";
+import { Board } from "./board";
 import { makeCavity } from "./cavity";
 import { ContactShade } from "./contact-shade";
 import { Instrument } from "./instrument";
 import { Lamp } from "./lamp";
+import { Marks } from "./marks";
 import { makePort } from "./port";
 import { makeMaps, WET } from "./skin-texture";
 
@@ -22,6 +24,8 @@ export class Theatre {
   private block: Block | null = null;
   private instruments: readonly Instrument[] = [];
   private scopePort = new Group();
+  private readonly marks = new Marks();
+  private readonly board = new Board();
   private readonly shade = new ContactShade();
   private readonly maps = makeMaps(WET, 3, 512);
 
@@ -43,17 +47,27 @@ export class Theatre {
       return instrument;
     });
     this.scopePort = makePort(hello.camera.port_m, hello.camera.target_m, SCOPE_RADIUS);
-    this.content.add(this.scopePort);
+    this.content.add(this.scopePort, this.marks.group, this.board.mesh);
+    this.marks.greet(hello);
+    this.board.greet(hello);
+  }
+
+  /** Show in the scene what is to be done now; null shows nothing. */
+  guide(guiding: Guiding | null): void {
+    this.marks.show(guiding?.marks ?? []);
+    this.board.write(guiding);
   }
 
   /** Show the tissue as the newest frame has it. */
   deform(frame: Frame): void {
     this.block?.update(frame);
+    this.marks.drape(frame);
   }
 
-  /** Show the scope's own port, or not where it would stand before the eyes. */
-  showScopePort(shown: boolean): void {
-    this.scopePort.visible = shown;
+  /** Show what only eyes in a headset need, and leave out what would stand before them. */
+  immerse(immersed: boolean): void {
+    this.scopePort.visible = !immersed;
+    this.board.show(immersed);
   }
 
   /** Show both instruments where they are drawn now. */

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { type Connection, Link } from "../../src/wire/link";
-import { type Hello, type Notice, readServerMessage, WireError } from "../../src/wire/messages";
+import { type Guiding, type Hello, type Notice, readServerMessage, WireError } from "../../src/wire/messages";
 import { hands, hello } from "../sample";
 import { frame } from "./golden";
 
@@ -23,13 +23,19 @@ class FakeSocket {
   }
 }
 
-const told: { hellos: Hello[]; notices: Notice[]; states: [Connection, string][] } = { hellos: [], notices: [], states: [] };
+const told: { hellos: Hello[]; guided: Guiding[]; notices: Notice[]; states: [Connection, string][] } = {
+  hellos: [],
+  guided: [],
+  notices: [],
+  states: [],
+};
 const POSE = hands()[0].pose;
 
 function connected(): [Link, FakeSocket] {
   const link = new Link(
     {
       hello: (message) => told.hellos.push(message),
+      guiding: (message) => told.guided.push(message),
       notice: (message) => told.notices.push(message),
       connection: (state, reason) => told.states.push([state, reason]),
     },

@@ -1,0 +1,167 @@
+/**
+ * A trainee's day at the page: choose a task, see how it is done, do it, read the score card, look at it again,
+ * see how practice goes. What it needs of the rest of the page is in `Stage`.
+ */
+
+import type { Guiding, Hello } from "../wire/messages";
+import { type Attempt, type AttemptRow, get, post, type TaskLevel, type Trainee } from "../wire/rest";
+import { CardView } from "./card";
+import { type Choice, Choose } from "./choose";
+import { Film } from "./film";
+import { HistoryView } from "./history";
+import { Questions } from "./questions";
+import type { Replay } from "./replay";
+import { type Offer, TaskPanel } from "./task-panel";
+
+const FREE = "Free practice: press, slide on and lift the tissue, as long as you like. Nothing is recorded.";
+const NO_LESSONS = "Free practice: press, slide on and lift the tissue. There is no task to follow.";
+
+/** What a lesson asks of the page. */
+export interface Stage {
+  readonly replay: Replay;
+  /** Show what to do now in the scene and on the bars; null shows nothing. */
+  guide(guiding: Guiding | null): void;
+  /** Say a sentence at the top of the page. */
+  say(level: "info" | "warning", words: string): void;
+  /** Bring the keyboard to the picture. */
+  focus(): void;
+  /** Show another tissue than the live one; null shows the live one again. */
+  show(hello: Hello | null): void;
+}
+
+export class Day {
+  private readonly panel = new TaskPanel();
+  private readonly card = new CardView();
+  private readonly history = new HistoryView(
+    (attempt) => void this.safely(() => this.open(attempt)),
+    (error) => this.fail(error),
+  );
+  private readonly questions = new Questions(() => this.stage.say("info", "Thank you: your answers are kept."));
+  private readonly choose = new Choose((choice) => this.brief(choice));
+  private tasks: readonly TaskLevel[] = [];
+  private chosen: Choice | null = null;
+  private attempt = 0; // number of the one that is under way; 0 if none is
+  private offered = false;
+
+  constructor(private readonly stage: Stage) {
+    this.panel.free(NO_LESSONS, []);
+  }
+
+  /** Take the trainer's greeting. */
+  greet(hello: Hello): void {
+    if (hello.lessons === this.offered) return;
+    this.offered = hello.lessons;
+    this.free();
+  }
+
+  /** Take what the trainer says of the attempt that is under way. */
+  take(guiding: Guiding): void {
+    if (guiding.attempt !== this.attempt) return; // another page's, or one that was left
+    this.panel.update(guiding);
+    this.stage.guide(guiding.state === "running" ? guiding : null);
+    if (guiding.state === "running" || guiding.state === "marking") return;
+    this.attempt = 0;
+    if (guiding.state === "finished") void this.safely(() => this.open(guiding.attempt));
+    else {
+      this.stage.say("warning", `The attempt was interrupted: ${guiding.reason}.`);
+      if (this.chosen) this.brief(this.chosen);
+    }
+  }
+
+  private free(): void {
+    this.chosen = null;
+    if (!this.offered) this.panel.free(NO_LESSONS, []);
+    else this.panel.free(FREE, [["Choose a task", () => void this.safely(() => this.offer())]]);
+  }
+
+  private async offer(): Promise<void> {
+    const [tasks, trainees, rows] = await Promise.all([
+      get<TaskLevel[]>("/api/tasks"),
+      get<Trainee[]>("/api/trainees"),
+      get<AttemptRow[]>("/api/attempts"),
+    ]);
+    this.tasks = tasks;
+    this.choose.open(tasks, trainees, rows);
+  }
+
+  private brief(choice: Choice): void {
+    this.stage.replay.close();
+    this.chosen = choice;
+    const { task, trainee } = choice;
+    this.panel.brief(task, trainee, [
+      ["Begin", () => void this.safely(() => this.begin(choice))],
+      ["Watch the expert", () => void this.safely(() => this.watch(task))],
+      ["History", () => void this.safely(() => this.history.open(trainee, this.tasks, task))],
+      ["Another task", () => void this.safely(() => this.offer())],
+      ["Free practice", () => this.free()],
+    ]);
+  }
+
+  private async watch(task: TaskLevel): Promise<void> {
+    this.stage.say("info", "Fetching the expert's attempt, a few seconds the first time.");
+    const film = await this.film(`/api/tasks/${task.name}/${task.level}/film`);
+    this.stage.show(film.sheet.hello);
+    this.stage.replay.open(film, null, ["The scripted expert", ""], () => this.stage.show(null));
+    this.stage.say("info", `The scripted expert at ${task.title.toLowerCase()}, level ${task.level}.`);
+  }
+
+  private async begin(choice: Choice): Promise<void> {
+    const { task, trainee } = choice;
+    this.stage.replay.close();
+    this.panel.begin(task, []);
+    try {
+      const row = await post<AttemptRow>("/api/attempts", { trainee, task: task.name, level: task.level });
+      this.attempt = row.id;
+    } catch (error) {
+      this.brief(choice);
+      throw error;
+    }
+    this.panel.offer([["End the attempt", () => void this.safely(() => post(`/api/attempts/${this.attempt}/end`, {}))]]);
+    this.stage.focus();
+  }
+
+  private async open(number: number): Promise<void> {
+    if (this.tasks.length === 0) this.tasks = await get<TaskLevel[]>("/api/tasks");
+    const attempt = await get<Attempt>(`/api/attempts/${number}`);
+    const task = this.tasks.find((each) => each.name === attempt.task && each.level === attempt.level);
+    if (!task) return;
+    const choice = { trainee: attempt.trainee, task };
+    this.brief(choice);
+    const offers: Offer[] = [
+      ["Try again", () => void this.safely(() => this.begin(choice))],
+      ["Look at it again, beside the expert", () => void this.safely(() => this.compare(attempt, task))],
+      ["History", () => void this.safely(() => this.history.open(attempt.trainee, this.tasks, task))],
+      ["Say what you think", () => void this.safely(() => this.questions.open(attempt.trainee, attempt.id))],
+      ["Close", () => undefined],
+    ];
+    this.card.open(attempt, task, offers);
+  }
+
+  private async compare(attempt: Attempt, task: TaskLevel): Promise<void> {
+    this.stage.say("info", "Fetching both attempts, a few seconds.");
+    const [mine, theirs] = await Promise.all([
+      this.film(`/api/attempts/${attempt.id}/film`),
+      this.film(`/api/tasks/${task.name}/${task.level}/film`),
+    ]);
+    this.stage.show(mine.sheet.hello);
+    const captions = [`${attempt.trainee}, attempt ${attempt.id}`, "The scripted expert"] as const;
+    this.stage.replay.open(mine, theirs, captions, () => this.stage.show(null));
+    this.stage.say("info", `${captions[0]}, beside the scripted expert.`);
+  }
+
+  private film(path: string): Promise<Film> {
+    return Film.open(path, (error) => this.fail(error));
+  }
+
+  private async safely(act: () => Promise<unknown>): Promise<void> {
+    try {
+      await act();
+    } catch (error) {
+      this.fail(error as Error);
+    }
+  }
+
+  private fail(error: Error): void {
+    this.stage.say("warning", error.message);
+  }
+}
