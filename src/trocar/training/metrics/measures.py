@@ -201,7 +201,7 @@ MEASURES = (
         unit="s",
         formula="time with a tip's speed at most 5 mm/s, mean of the instruments used",
         source="threshold of EndoViS; separates experts from novices in JIGSAWS knot tying (AUC 1.00)",
-        cannot_tell="thinking from waiting, or from slow work: who traces a line at 4 mm/s is idle all the way",
+        cannot_tell="thinking from waiting, or from work slower than that",
         of=idle_time,
     ),
     Measure(
