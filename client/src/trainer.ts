@@ -64,6 +64,8 @@ export class Trainer {
   screen(hello: Hello | null): void {
     const shown = hello ?? this.hello;
     if (shown) this.look(shown);
+    this.theatre.guide(null);
+    this.panel.ask(null);
   }
 
   private look(hello: Hello): void {
@@ -116,6 +118,9 @@ export class Trainer {
     if (this.steers && hands) for (const side of SIDES) this.link.pose(side, hands.poses[side], now);
     const frame = this.replay.turn(seconds, now, look, this.centre);
     if (!frame) return;
+    const asked = this.replay.asked;
+    this.theatre.mark(asked?.marks ?? []);
+    this.panel.ask(asked);
     this.theatre.deform(frame);
     this.theatre.place([asSeen(frame.instruments[0]), asSeen(frame.instruments[1])]);
     this.panel.update(frame, now);

@@ -2,13 +2,14 @@
 
 import { clamp } from "../vector";
 import { type Frame, readFrame } from "../wire/frame";
+import type { Asked } from "../wire/messages";
 import { bytes, type FilmSheet, get } from "../wire/rest";
 
 const KEPT = 8; // reels, of four seconds each
 
 export class Film {
   private readonly reels = new Map<number, ArrayBuffer>();
-  private readonly asked = new Set<number>();
+  private readonly awaited = new Set<number>();
   private shown: { readonly number: number; readonly frame: Frame } | null = null;
 
   private constructor(
@@ -41,14 +42,19 @@ export class Film {
     return this.shown?.frame ?? null;
   }
 
+  /** Return what was to be done at a time [s]. */
+  asked(time: number): Asked | null {
+    return this.sheet.parts.find((part) => time <= part.end_s) ?? null;
+  }
+
   private reel(number: number): ArrayBuffer | null {
     const first = number * this.sheet.most_frames;
     const found = this.reels.get(number);
-    if (found || first >= this.sheet.frames || this.asked.has(number)) return found ?? null;
-    this.asked.add(number);
+    if (found || first >= this.sheet.frames || this.awaited.has(number)) return found ?? null;
+    this.awaited.add(number);
     bytes(`${this.path}/frames?first=${first}&count=${this.sheet.most_frames}`)
       .then((reel) => this.keep(number, reel), this.failed)
-      .finally(() => this.asked.delete(number));
+      .finally(() => this.awaited.delete(number));
     return null;
   }
 

@@ -6,6 +6,7 @@ import type { Look } from "../scene/scope";
 import { Theatre } from "../scene/theatre";
 import type { Vector } from "../vector";
 import type { Frame } from "../wire/frame";
+import type { Asked } from "../wire/messages";
 import { asSeen } from "../instrument/followed";
 import { Clock, type Film, sameStep } from "./film";
 
@@ -75,6 +76,11 @@ export class Replay {
     return this.film;
   }
 
+  /** What was to be done at the time that is shown. */
+  get asked(): Asked | null {
+    return this.film?.asked(this.clock.time) ?? null;
+  }
+
   /** Let time pass and return the frame to be shown in the page's own picture. @param seconds since the last turn. */
   turn(seconds: number, now: number, look: Look, centre: Vector): Frame | null {
     const film = this.film;
@@ -91,6 +97,7 @@ export class Replay {
     const time = this.along.value === "step" ? sameStep(this.clock.time, film, other) : this.clock.time;
     const frame = other.at(Math.min(time, other.duration));
     if (!frame) return;
+    theatre.mark(other.asked(time)?.marks ?? []);
     theatre.deform(frame);
     theatre.place([asSeen(frame.instruments[0]), asSeen(frame.instruments[1])]);
     picture.aim(look);

@@ -11,6 +11,7 @@ export type Offer = readonly [words: string, act: () => void];
 export class TaskPanel {
   private readonly body = byId("task", HTMLDivElement);
   private readonly hint = make("p", "hint");
+  private readonly now = byId("told-now", HTMLElement); // the same over the picture, where the eyes are
   private readonly time = make("p", "time");
   private readonly wrong = make("p", "wrong");
   private readonly bar = make("div", "time-bar");
@@ -27,6 +28,7 @@ export class TaskPanel {
 
   /** Show that there is free practice. */
   free(words: string, offers: readonly Offer[]): void {
+    say(this.now, "");
     this.task = this.steps = null;
     this.body.replaceChildren(make("p", "note", words), this.offers);
     this.offer(offers);
@@ -72,7 +74,9 @@ export class TaskPanel {
     const marking = guiding.state !== "running";
     say(this.time, `${guiding.time_s.toFixed(0)} s of ${task.cutoff_s.toFixed(0)} s`);
     this.left.style.transform = `scaleX(${(guiding.left_s / task.cutoff_s).toFixed(3)})`;
-    say(this.hint, marking ? "The attempt is over; it is being marked." : guiding.hint);
+    const hint = marking ? "The attempt is over; it is being marked." : guiding.hint;
+    say(this.hint, hint);
+    say(this.now, guiding.state === "running" || guiding.state === "marking" ? hint : "");
     const mistakes = guiding.mistakes === 1 ? "1 mistake" : `${guiding.mistakes} mistakes`;
     const trouble = guiding.reason && !marking ? ` ${guiding.reason}` : "";
     say(this.wrong, (guiding.mistakes ? `${mistakes}: ${guiding.mistake}.` : "") + trouble);

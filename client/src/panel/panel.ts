@@ -1,7 +1,7 @@
 /** What stands beside the picture: forces, the servo's figures, the hand in use. */
 
 import type { Frame } from "../wire/frame";
-import type { Guiding, Hello } from "../wire/messages";
+import type { Asked, Hello } from "../wire/messages";
 import { byId, say } from "./element";
 import { ForceBar } from "./force-bar";
 import { Notices } from "./notices";
@@ -30,8 +30,8 @@ export class Panel {
   }
 
   /** Show on the bars what force is asked for; null asks for none. */
-  ask(guiding: Guiding | null): void {
-    this.bars.forEach((bar, side) => bar.ask(guiding?.least_n[side] ?? 0, guiding?.most_n[side] ?? 0));
+  ask(asked: Asked | null): void {
+    this.bars.forEach((bar, side) => bar.ask(asked?.least_n[side] ?? 0, asked?.most_n[side] ?? 0));
   }
 
   /** Say which instrument mouse and keyboard move. */

@@ -4,7 +4,7 @@ import { Color, Group, Scene } from "three";
 
 import type { Drawn } from "../instrument/drawn";
 import type { Frame } from "../wire/frame";
-import type { Guiding, Hello, InstrumentShape } from "../wire/messages";
+import type { Guiding, Hello, InstrumentShape, TaskMark } from "../wire/messages";
 import { Block } from "./block";
 import { Board } from "./board";
 import { makeCavity } from "./cavity";
@@ -54,8 +54,13 @@ export class Theatre {
 
   /** Show in the scene what is to be done now; null shows nothing. */
   guide(guiding: Guiding | null): void {
-    this.marks.show(guiding?.marks ?? []);
+    this.mark(guiding?.marks ?? []);
     this.board.write(guiding);
+  }
+
+  /** Draw these marks on the tissue and no others. */
+  mark(marks: readonly TaskMark[]): void {
+    this.marks.show(marks);
   }
 
   /** Show the tissue as the newest frame has it. */

@@ -14,6 +14,12 @@ export interface Camera {
 
 /** What to do now, in the attempt that is under way. */
 export interface Guiding {
+  readonly words: string;
+  readonly marks: readonly TaskMark[];
+  /** force asked of the left and the right hand, at least */
+  readonly least_n: readonly [number, number];
+  /** at most; 0 where none is asked for */
+  readonly most_n: readonly [number, number];
   readonly type: "guiding";
   /** number of its record */
   readonly attempt: number;
@@ -21,15 +27,8 @@ export interface Guiding {
   readonly state: "running" | "marking" | "finished" | "interrupted";
   /** number of the step that is on, from 0; as many as there are when all is done */
   readonly step: number;
-  /** what it asks for */
-  readonly words: string;
   /** what would bring it nearer */
   readonly hint: string;
-  readonly marks: readonly TaskMark[];
-  /** force asked of the left and the right hand, at least */
-  readonly least_n: readonly [number, number];
-  /** at most; 0 where none is asked for */
-  readonly most_n: readonly [number, number];
   readonly mistakes: number;
   /** the last one */
   readonly mistake: string;

@@ -3,6 +3,8 @@
 import { type Guiding, type Hello, type InstrumentShape, type Notice, PROTOCOL } from "./contract";
 
 export type { Guiding, Hello, InstrumentShape, Notice, TaskMark } from "./contract";
+/** What a step asks for. */
+export type Asked = Pick<Guiding, "words" | "marks" | "least_n" | "most_n">;
 export type Tip = InstrumentShape["tip"];
 
 /** What came is not what the contract says; the message is a sentence for the user. */

@@ -1,6 +1,6 @@
 /** The trainer's REST interface: what it tells, and a sentence for the user where it refuses. */
 
-import type { Hello } from "./messages";
+import type { Asked, Hello } from "./messages";
 
 /** The trainer did not do what was asked; the message is a sentence for the user. */
 export class Refused extends Error {}
@@ -62,6 +62,7 @@ export interface FilmSheet {
   readonly most_frames: number;
   readonly steps_s: readonly number[];
   readonly mistakes: readonly { readonly time_s: number; readonly words: string }[];
+  readonly parts: readonly (Asked & { readonly end_s: number })[];
   readonly hello: Hello;
 }
 

@@ -23,7 +23,6 @@ from trocar.training.session import LONGEST, Recording
 from trocar.training.strip import Piece, joined, write_piece
 from trocar.training.tasks.moment import Moment
 from trocar.training.tasks.progress import Progress
-from trocar.training.tasks.step import Mark
 from trocar.training.tasks.task import Task
 
 KEEP_EVERY = 0.5  # [s] of an attempt: so much at most is lost with the process
@@ -50,11 +49,8 @@ class Guidance:
     """What a trainee is told.
 
     Attributes:
-        step: number of the step that is on, from 0; as many as there are when all is done.
-        words: what it asks for.
+        number: of the step that is on, from 0; as many as there are when all is done.
         hint: what would bring it nearer.
-        marks: where.
-        bands: least and most force it asks for of the left and the right hand [N]; None where it asks for none.
         mistakes: how many so far.
         mistake: the last one.
         time: since the attempt began [s].
@@ -62,11 +58,8 @@ class Guidance:
         trouble: why the newest ticks are not kept yet, if they are not.
     """
 
-    step: int
-    words: str
+    number: int
     hint: str
-    marks: tuple[Mark, ...]
-    bands: tuple[tuple[float, float] | None, tuple[float, float] | None]
     mistakes: int
     mistake: str
     time: float
@@ -194,13 +187,10 @@ class LiveAttempt:
 
     def _guidance(self) -> Guidance:
         progress = self._progress
-        step, mistakes = progress.step, progress.mistakes
+        mistakes = progress.mistakes
         return Guidance(
-            step=progress.number,
-            words="" if step is None else step.words,
+            number=progress.number,
             hint=progress.now,
-            marks=() if step is None else step.marks,
-            bands=(None, None) if step is None else (step.band(0), step.band(1)),
             mistakes=len(mistakes),
             mistake=mistakes[-1].words if mistakes else "",
             time=DT * self._ticks,

@@ -20,12 +20,14 @@ from trocar.training.figures.cusum import cusum
 from trocar.training.figures.forces import forces
 from trocar.training.figures.learning_curve import learning_curve
 from trocar.training.figures.paths import paths
+from trocar.training.figures.stages import stages_of
 from trocar.training.figures.time_spent import time_spent
 from trocar.training.tasks.catalogue import LEVELS, TASKS
 from trocar.training.tasks.catalogue import task as task_by_name
+from trocar.web.asking import asking
 from trocar.web.films import MOST_FRAMES, Films, Screening
 from trocar.web.lessons import BusyError, Lessons
-from trocar.web.messages import Hello
+from trocar.web.messages import Asked, Hello
 
 _Number = Annotated[int, Path(ge=1, le=2**53)]
 _Level = Annotated[int, Path(ge=1, le=9)]
@@ -62,6 +64,12 @@ class NewAnswers(_Asked):
     values: dict[str, int] = Field(max_length=100, description="by item, 1 to 5")
 
 
+class FilmPart(Asked):
+    """What was to be done in a part of a film."""
+
+    end_s: float = Field(description="when it was done, or the film ended")
+
+
 class FilmSheet(BaseModel):
     """What a film is made of."""
 
@@ -76,6 +84,7 @@ class FilmSheet(BaseModel):
     most_frames: int = Field(description="in one answer")
     steps_s: tuple[float, ...] = Field(description="when each step was done, as many as were")
     mistakes: tuple[dict[str, float | int | str], ...]
+    parts: tuple[FilmPart, ...] = Field(description="what was to be done, one part after the other")
     hello: Hello = Field(description="what is shown")
 
 
@@ -223,6 +232,10 @@ def _sheet(screening: Screening, attempt: int | None) -> FilmSheet:
         steps_s=tuple(shown.progress.ended),
         mistakes=tuple(
             {"time_s": one.time, "step": one.step + 1, "words": one.words} for one in shown.progress.mistakes
+        ),
+        parts=tuple(
+            FilmPart(**asking(screening.task.steps[stage.steps.start]), end_s=stage.end)
+            for stage in stages_of(shown.attempt, shown.progress)
         ),
         hello=screening.stage.hello(by_page=False),
     )

@@ -18,7 +18,8 @@ from trocar.training.session import assess
 from trocar.training.strip import header
 from trocar.training.tasks.catalogue import task as task_by_name
 from trocar.training.tasks.task import Task
-from trocar.web.messages import Guiding, State, TaskMark
+from trocar.web.asking import asking
+from trocar.web.messages import Guiding, State
 from trocar.web.stage import stage_of
 from trocar.web.trainer import Trainer
 
@@ -160,8 +161,8 @@ class Lessons:
 
 
 def _differ(one: Guidance, other: Guidance) -> bool:
-    return (one.step, one.hint, one.mistakes, one.trouble) != (
-        other.step,
+    return (one.number, one.hint, one.mistakes, one.trouble) != (
+        other.number,
         other.hint,
         other.mistakes,
         other.trouble,
@@ -169,19 +170,13 @@ def _differ(one: Guidance, other: Guidance) -> bool:
 
 
 def _guiding(number: int, task: Task, guidance: Guidance, state: State, reason: str) -> Guiding:
-    bands = [band or (0.0, 0.0) for band in guidance.bands]
+    done = guidance.number >= len(task.steps)
     return Guiding(
         attempt=number,
         state=state,
-        step=guidance.step,
-        words=guidance.words,
+        step=guidance.number,
+        **asking(None if done else task.steps[guidance.number]),
         hint=guidance.hint,
-        marks=tuple(
-            TaskMark(place_m=mark.place, radius_m=mark.radius, hand="left" if mark.hand == 0 else "right")
-            for mark in guidance.marks
-        ),
-        least_n=(bands[0][0], bands[1][0]),
-        most_n=(bands[0][1], bands[1][1]),
         mistakes=guidance.mistakes,
         mistake=guidance.mistake,
         time_s=guidance.time,

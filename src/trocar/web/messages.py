@@ -86,10 +86,19 @@ class TaskMark(Message):
     hand: Literal["left", "right"]
 
 
+class Asked(Message):
+    """What a step asks for."""
+
+    words: str
+    marks: tuple[TaskMark, ...]
+    least_n: tuple[float, float] = Field(description="force asked of the left and the right hand, at least")
+    most_n: tuple[float, float] = Field(description="at most; 0 where none is asked for")
+
+
 State = Literal["running", "marking", "finished", "interrupted"]
 
 
-class Guiding(Message):
+class Guiding(Asked):
     """What to do now, in the attempt that is under way."""
 
     type: Literal["guiding"] = "guiding"
@@ -98,11 +107,7 @@ class Guiding(Message):
     step: int = Field(
         description="number of the step that is on, from 0; as many as there are when all is done"
     )
-    words: str = Field(description="what it asks for")
     hint: str = Field(description="what would bring it nearer")
-    marks: tuple[TaskMark, ...]
-    least_n: tuple[float, float] = Field(description="force asked of the left and the right hand, at least")
-    most_n: tuple[float, float] = Field(description="at most; 0 where none is asked for")
     mistakes: int
     mistake: str = Field(description="the last one")
     time_s: float = Field(description="since the attempt began")

@@ -1,6 +1,7 @@
 """Metrics of attempts whose answers are known in closed form."""
 
 from math import isnan, pi
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -129,3 +130,10 @@ def test_each_measure_says_what_it_is():
     assert len(set(names)) == len(names)
     for measure in MEASURES:
         assert all((measure.unit, measure.formula, measure.source, measure.cannot_tell))
+
+
+def test_the_page_on_scores_has_a_line_for_each_measure_with_its_unit_and_no_other():
+    page = (Path(__file__).parents[3] / "docs/explanation/scores.md").read_text(encoding="utf-8")
+    table = page.split("| metric |", 1)[1].split("\n\n", 1)[0]
+    found = [line.split("|")[1].strip() for line in table.splitlines()[2:]]
+    assert found == [f"{measure.name.replace('_', ' ')} [{measure.unit}]" for measure in MEASURES]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from trocar.model import FloatArray
@@ -12,6 +14,8 @@ from trocar.training.figures.page import DIM, HALO, LIMIT, SCORE, TEXT, page_she
 from trocar.training.practice import Cusum
 
 _HEIGHT = 3.6  # [in]
+_NEAR_LEFT = 0.25  # of the width: room for words
+_ROUNDING = 1e-9  # two failures in a row reach the usual alarm exactly: 2 ln 3 = ln 9
 
 
 def cusum(failed: Sequence[bool], chart: Cusum | None = None) -> str:
@@ -27,12 +31,16 @@ def cusum(failed: Sequence[bool], chart: Cusum | None = None) -> str:
     numbers = np.arange(count + 1)
     alarm = np.minimum.accumulate(heights) + rates.alarm
     proof = np.maximum.accumulate(heights) - rates.proof
-    alarmed, proved = _first(heights[1:] >= alarm[:-1]), _first(heights[1:] <= proof[:-1])
+    alarmed, proved = (
+        _first(heights[1:] - alarm[:-1] >= -_ROUNDING),
+        _first(proof[:-1] - heights[1:] >= -_ROUNDING),
+    )
     wrong = np.concatenate([[False], np.asarray(failed, dtype=bool)])
     size = 6.0 if count <= 40 else 4.0
     with page_sheet(_HEIGHT) as figure:
         axes = figure.subplots()
         end = max(count, 10) + 0.5
+        axes.set_xlim(0.0, end)
         for limit, crossed, colour, style, words in (
             (
                 alarm,
@@ -48,7 +56,7 @@ def cusum(failed: Sequence[bool], chart: Cusum | None = None) -> str:
             height = [*limit[: last + 1].tolist(), *([float(limit[-1])] if crossed is None else [])]
             axes.step(till, height, where="post", color=colour, linewidth=1.3, linestyle=style, label=words)
         axes.plot(numbers, heights, color=TEXT, linewidth=1.0, zorder=2)
-        marks = {"linestyle": "none", "markersize": size, "zorder": 3}
+        marks: dict[str, Any] = {"linestyle": "none", "markersize": size, "zorder": 3}
         right = ~wrong & (numbers > 0)
         axes.plot(
             numbers[right], heights[right], marker="o", color=SCORE, label="passed: a little down", **marks
@@ -62,31 +70,17 @@ def cusum(failed: Sequence[bool], chart: Cusum | None = None) -> str:
             label="not passed: far up",
             **marks,
         )
-        for number, words, colour, side in ((alarmed, "alarm", LIMIT, -1), (proved, "proof", SCORE, 1)):
+        for number, words, colour in ((alarmed, "alarm", LIMIT), (proved, "proof", SCORE)):
             if number is not None:
-                at = (number, heights[number])
-                axes.plot(
-                    *at,
-                    "o",
-                    color="none",
-                    markeredgecolor=colour,
-                    markersize=13,
-                    markeredgewidth=1.4,
-                    zorder=4,
-                )
-                axes.annotate(
+                _ring(
+                    axes,
+                    number,
+                    heights[number],
                     f"{words}: attempt {number}",
-                    at,
-                    xytext=(9 * side, 12),
-                    textcoords="offset points",
-                    ha="left" if side > 0 else "right",
-                    va="center",
-                    fontsize=9,
-                    color=colour,
-                    path_effects=HALO,
+                    colour,
+                    rising=words == "alarm",
                 )
         axes.margins(y=0.1)
-        axes.set_xlim(0.0, end)
         if not count:
             axes.text(
                 0.5,
@@ -109,6 +103,35 @@ def cusum(failed: Sequence[bool], chart: Cusum | None = None) -> str:
             "CUSUM chart of passes and failures",
             _description(heights, wrong, rates, alarmed, proved),
         )
+
+
+def _ring(axes: Axes, number: int, height: float, words: str, colour: str, *, rising: bool) -> None:
+    """Ring a point and write beside it, away from the curve; near an end, towards the middle."""
+    share = number / axes.get_xlim()[1]
+    right = share < _NEAR_LEFT or (not rising and share < 1 - _NEAR_LEFT)
+    below = right == rising
+    axes.plot(
+        number,
+        height,
+        "o",
+        color="none",
+        markeredgecolor=colour,
+        markersize=13,
+        markeredgewidth=1.4,
+        zorder=4,
+    )
+    axes.annotate(
+        words,
+        (number, height),
+        xytext=(9 if right else -9, -12 if below else 12),
+        textcoords="offset points",
+        ha="left" if right else "right",
+        va="center",
+        fontsize=9,
+        color=colour,
+        path_effects=HALO,
+        zorder=5,
+    )
 
 
 def _first(crossed: FloatArray | np.ndarray) -> int | None:

@@ -24,7 +24,7 @@ from trocar.training.figures.page import (
     thinned,
     times_over,
 )
-from trocar.training.figures.stages import Stage, asked, hands_asked, stage_steps, stages_of
+from trocar.training.figures.stages import Stage, hands_asked, stage_steps, stages_of
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.metrics.forces import TOUCHING
 from trocar.training.tasks.progress import Progress
@@ -74,7 +74,7 @@ def _panel(
 ) -> None:
     colour = HAND_COLOURS[hand]
     for stage in stages:
-        least, most = asked(stage.step).get(hand, (0.0, 0.0))
+        least, most = stage.step.band(hand) or (0.0, 0.0)
         if most > 0:
             axes.fill_between(
                 [stage.begin, stage.end], least, most, color=colour, alpha=0.2, linewidth=0, zorder=1

@@ -159,7 +159,8 @@ def _draw_marks(axes: Axes, task: Task, attempt: Attempt) -> None:
         )
     for mark, place in _places_of_words(list(numbers), attempt).items():
         axes.text(
-            *place,
+            place[0],
+            place[1],
             _ranges(numbers[mark]),
             color=TEXT,
             fontsize=9,

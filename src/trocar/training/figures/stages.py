@@ -35,7 +35,8 @@ class Stage:
 
 def stage_steps(task: Task) -> list[range]:
     """Return the numbers of the steps of each stage of a task, from 0."""
-    steps, found, first = task.steps, [], 0
+    found: list[range] = []
+    steps, first = task.steps, 0
     for after in range(1, len(steps) + 1):
         if after == len(steps) or not _one_line(steps[first], steps[after]):
             found.append(range(first, after))
@@ -45,7 +46,8 @@ def stage_steps(task: Task) -> list[range]:
 
 def stages_of(attempt: Attempt, progress: Progress) -> list[Stage]:
     """Return the stages that an attempt came to, in order; the last may not be done."""
-    ends, found, begin = progress.ended, [], 0.0
+    found: list[Stage] = []
+    ends, begin = progress.ended, 0.0
     for number, steps in enumerate(stage_steps(progress.task), 1):
         if steps.start > len(ends) or (found and not found[-1].done):
             break
@@ -65,19 +67,6 @@ def _one_line(one: Step, other: Step) -> bool:
         and isinstance(other, Follow)
         and (one.curve, one.hand) == (other.curve, other.hand)
     )
-
-
-def asked(step: Step) -> dict[int, tuple[float, float]]:
-    """Return the least and the most force a step asks of each hand [N]; a hand that it leaves alone is not in it."""
-    match step:
-        case Press() | Follow():
-            return {step.hand: (step.least, step.most)}
-        case Lift():
-            return {step.hand: (0.0, step.most)}
-        case Together():
-            return asked(step.base) | asked(step.step)
-        case _:
-            return {}
 
 
 def hands_asked(progress: Progress) -> set[int]:

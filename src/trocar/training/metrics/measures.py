@@ -201,7 +201,7 @@ MEASURES = (
         unit="s",
         formula="time with a tip's speed at most 5 mm/s, mean of the instruments used",
         source="threshold of EndoViS; separates experts from novices in JIGSAWS knot tying (AUC 1.00)",
-        cannot_tell="thinking from waiting",
+        cannot_tell="thinking from waiting, or from work slower than that",
         of=idle_time,
     ),
     Measure(
@@ -231,7 +231,7 @@ MEASURES = (
     Measure(
         name="rms_force",
         unit="N",
-        formula="sqrt(mean |F|^2) while a tip touches",
+        formula="sqrt(mean |F|^2) of all forces above 1 mN of both tips",
         source="as peak force",
         cannot_tell="a task that needs force from a hand that gives too much",
         of=rms_force,
