@@ -31,6 +31,8 @@ def interface(name):
         messages.LayerSize,
         messages.InstrumentShape,
         messages.Camera,
+        messages.Guiding,
+        messages.TaskMark,
     ],
 )
 def test_every_message_has_its_keys(model):
@@ -44,7 +46,7 @@ def test_types_are_the_tightest_there_are():
     assert interface("Hello")["steered_by"] == '"page" | "trainer"'
     assert interface("Hello")["instruments"] == "readonly InstrumentShape[]"
     assert interface("Acknowledgement") == {"type": '"ack"', "sequence": "number"}
-    assert "export type ServerMessage = Hello | Notice;" in TEXT
+    assert "export type ServerMessage = Hello | Guiding | Notice;" in TEXT
 
 
 @pytest.mark.parametrize(

@@ -157,12 +157,14 @@ def _attempt(task: str, options: dict[str, Any], out: Path | None, real_time: bo
     from rich.progress import Progress
 
     from trocar.cli.score_card import print_card
-    from trocar.training.headless import attempt
+    from trocar.records.scripted import attempt_on_record
+    from trocar.records.store import Records
     from trocar.training.tape import write_attempt
 
-    with Progress(console=Console(stderr=True), transient=True) as bar:
+    with Records.open() as records, Progress(console=Console(stderr=True), transient=True) as bar:
         work = bar.add_task(task, total=None)
-        done = attempt(
+        done = attempt_on_record(
+            records,
             task,
             real_time=real_time,
             watch=lambda time, limit: bar.update(work, completed=time, total=limit),

@@ -6,10 +6,13 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from trocar.errors import InputError
+import numpy as np
+
+from trocar.model import FloatArray
 from trocar.simulation import DT
-from trocar.training.players import ScriptedPlayer, Skill
+from trocar.training.players import ScriptedPlayer, Skill, skill_of
 from trocar.training.session import Card, Recording, assess, perform
+from trocar.training.strip import KEEP_EVERY, told_tick_by_tick, write_piece
 from trocar.training.tasks.catalogue import task as task_by_name
 from trocar.training.tasks.task import Task
 
@@ -43,6 +46,7 @@ def attempt(
     seed: int = 0,
     real_time: bool = False,
     watch: Callable[[float, float], None] = lambda time, limit: None,
+    keep: Callable[[bytes, int], None] = lambda data, ticks: None,
 ) -> Attempted:
     """Let a scripted trainee do a task.
 
@@ -53,18 +57,29 @@ def attempt(
         seed: of the trainee's chances, 0 or above.
         real_time: whether it may be no faster than a person.
         watch: told the attempt's time and the most it can be [s], ten times a second of its own.
+        keep: takes each piece of the attempt's strip (`strip`) and how many ticks it holds, twice a second or so.
 
     Raises:
         InputError: there is no such task, level or skill, or the seed is negative.
     """
-    if skill not in list(Skill):
-        raise InputError("skill", " or ".join(Skill), skill)
-    task = task_by_name(name, level)
-    player = ScriptedPlayer(task.instruments, Skill(skill), seed, dt=DT)
-    began, told = time.monotonic(), 0.0
+    task, kind = task_by_name(name, level), skill_of(skill)
+    player = ScriptedPlayer(task.instruments, kind, seed, dt=DT)
+    began = kept = time.monotonic()
+    told = 0.0
+    unkept: list[FloatArray] = []
 
-    def look(now: float) -> None:
+    def store() -> None:
+        nonlocal kept
+        kept = time.monotonic()
+        if unkept:
+            keep(write_piece(told_tick_by_tick(np.stack(unkept))), len(unkept))
+            unkept.clear()
+
+    def look(now: float, poses: FloatArray) -> None:
         nonlocal told
+        unkept.append(poses)
+        if time.monotonic() - kept >= KEEP_EVERY:
+            store()
         if now - told >= _TOLD_EVERY:
             told = now
             watch(now, task.marking.cutoff)
@@ -72,6 +87,5 @@ def attempt(
                 time.sleep(max(0.0, began + now - time.monotonic()))
 
     recording = perform(task, player, watch=look)
-    return Attempted(
-        task=task, skill=Skill(skill), seed=seed, recording=recording, card=assess(task, recording)
-    )
+    store()
+    return Attempted(task=task, skill=kind, seed=seed, recording=recording, card=assess(task, recording))

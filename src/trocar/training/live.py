@@ -20,12 +20,10 @@ from trocar.realtime.servo import Servo, ServoFlag
 from trocar.realtime.trail import Ticks, read_trail
 from trocar.simulation import DT
 from trocar.training.session import LONGEST, Recording
-from trocar.training.strip import Piece, joined, write_piece
+from trocar.training.strip import KEEP_EVERY, Piece, joined, write_piece
 from trocar.training.tasks.moment import Moment
 from trocar.training.tasks.progress import Progress
 from trocar.training.tasks.task import Task
-
-KEEP_EVERY = 0.5  # [s] of an attempt: so much at most is lost with the process
 
 
 class Ending(StrEnum):

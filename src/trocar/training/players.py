@@ -38,6 +38,17 @@ class Skill(StrEnum):
     NOVICE = "novice"
 
 
+def skill_of(text: str) -> Skill:
+    """Return the skill of that name.
+
+    Raises:
+        InputError: there is none.
+    """
+    if text not in list(Skill):
+        raise InputError("skill", " or ".join(Skill), text)
+    return Skill(text)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Habits:
     """What makes a player an expert or a novice.

@@ -124,13 +124,15 @@ def scene_of(task: Task) -> Scene:
     return make_scene(_model(task.tissue), tissue(task.tissue), task.instruments)
 
 
-def perform(task: Task, player: Player, *, watch: Callable[[float], None] = lambda time: None) -> Recording:
+def perform(
+    task: Task, player: Player, *, watch: Callable[[float, FloatArray], None] = lambda time, poses: None
+) -> Recording:
     """Let a player do a task, and return what was done.
 
     Args:
         task: what to do.
         player: who does it.
-        watch: told the time of the attempt [s], every tick.
+        watch: told the time of the attempt [s] and both poses, shape (2, POSE), every tick.
     """
     scene = scene_of(task)
     state, progress = at_rest(scene), Progress(task)
@@ -143,7 +145,7 @@ def perform(task: Task, player: Player, *, watch: Callable[[float], None] = lamb
         advance(scene, state, poses[-1], records)
         moment = Moment(scene.dt * len(poses), records)
         progress.advance(moment)
-        watch(moment.time)
+        watch(moment.time, poses[-1])
     return Recording(poses=np.stack(poses), dt=scene.dt)
 
 

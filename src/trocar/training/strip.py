@@ -23,6 +23,7 @@ from trocar.realtime.tracking import Following, absent, follow_again
 from trocar.simulation import POSE
 from trocar.training.session import Recording
 
+KEEP_EVERY = 0.5  # [s] so much at most of an attempt is lost with the process
 _MAGIC = b"TRS1"
 _COUNTS = np.dtype("<u4")
 _REALS = np.dtype("<f8")
@@ -94,6 +95,15 @@ def read_piece(data: bytes) -> Piece:
     except (zlib.error, ValueError, IndexError) as error:
         raise InputError("recording", "a whole piece", f"one that cannot be read ({error})") from error
     return Piece(targets=targets, began=began, skipped=skipped)
+
+
+def told_tick_by_tick(poses: FloatArray) -> Piece:
+    """Return poses that were where they were told to be as a piece, none of its ticks skipped.
+
+    Args:
+        poses: of both handles, shape (n, 2, POSE).
+    """
+    return Piece(targets=poses, began=np.zeros(len(poses), bool), skipped=np.zeros(len(poses), np.int64))
 
 
 def joined(pieces: Iterable[Piece]) -> Piece:

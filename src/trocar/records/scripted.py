@@ -1,0 +1,50 @@
+"""A scripted trainee's attempt, kept on record like anybody's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from trocar.records.store import Records
+from trocar.simulation import DT
+from trocar.training.headless import Attempted, attempt
+from trocar.training.players import Skill, skill_of
+from trocar.training.strip import header
+from trocar.training.tasks.catalogue import task as task_by_name
+
+
+def attempt_on_record(
+    records: Records,
+    name: str,
+    *,
+    level: int = 1,
+    skill: str = Skill.EXPERT,
+    seed: int = 0,
+    real_time: bool = False,
+    watch: Callable[[float, float], None] = lambda time, limit: None,
+) -> Attempted:
+    """Let a scripted trainee do a task as `training.headless.attempt` does, and keep it as it goes.
+
+    Raises:
+        InputError: there is no such task, level or skill, or the seed is negative.
+        RecordsError: it cannot be kept.
+    """
+    task = task_by_name(name, level)
+    trainee = records.trainee(f"scripted {skill_of(skill)}")
+    number = records.begin(
+        trainee, task=task.name, level=level, device="simulated", header=header(DT, None), dt=DT
+    )
+    try:
+        done = attempt(
+            name,
+            level=level,
+            skill=skill,
+            seed=seed,
+            real_time=real_time,
+            watch=watch,
+            keep=lambda data, ticks: records.add(number, data, ticks),
+        )
+    except BaseException as error:
+        records.interrupt(number, str(error) or "it was stopped from outside")
+        raise
+    records.finish(number, done.card)
+    return done
