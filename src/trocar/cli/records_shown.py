@@ -17,22 +17,23 @@ if TYPE_CHECKING:
 
 
 def print_attempts(found: Sequence[AttemptRow]) -> None:
-    """Print a list of attempts."""
-    table = _table("id", "began", "trainee", "task", "level", "device", "status", "time", "score", "")
-    for column in (0, 4, 7, 8):
+    """Print a list of attempts; 80 columns hold it."""
+    table = _table("id", "began", "trainee", "task", "level", "time", "score", "")
+    for column in (0, 4, 5, 6):
         table.columns[column].justify = "right"
+    for column in (0, 1, 3, 4, 5, 6, 7):
+        table.columns[column].no_wrap = True
+    table.columns[2].overflow, table.columns[2].min_width = "fold", 15
     for row in found:
         table.add_row(
             str(row.id),
-            _local(row),
+            f"{row.began.astimezone():%d %b %H:%M}",
             escape(row.trainee),
             escape(row.task),
             str(row.level),
-            escape(row.device),
-            _status(row),
             f"{row.duration:.1f} s",
             "" if row.score is None else f"{row.score:.1f}",
-            _verdict(row.passed),
+            _status(row) if row.passed is None else _verdict(row.passed),
         )
     _print(table)
 
