@@ -108,7 +108,7 @@ def test_the_page_is_guided_from_the_first_step_to_the_card(school, done):
     assert (running[0]["least_n"][1], running[0]["most_n"]) == (step.least, [0.0, step.most])
     assert "Hold it so." in [each["hint"] for each in running]
     assert running[-1]["time_s"] > 2.0
-    assert running[-1]["time_s"] + running[-1]["left_s"] == pytest.approx(58.0)
+    assert running[-1]["time_s"] + running[-1]["left_s"] == pytest.approx(96.0)
 
 
 def test_the_card_is_on_record_and_comes_out_of_the_recording_again(school, done):

@@ -29,7 +29,7 @@ MARK = "# trocar recording, version "
 VERSION = 1
 COLUMNS = ("time_s", "instrument", "present", "handle_x_m", "handle_y_m", "handle_z_m", "roll_rad", "jaw")
 
-MOST_BYTES = 16 * 2**20  # about half an hour of both hands at 60 Hz
+MOST_BYTES = 64 * 2**20  # two hours of both hands at 60 Hz, or five minutes of every tick
 LONGEST = 24 * 3600.0  # [s]
 MOST_ROLL = 2000 * pi  # [rad]; what the trainer takes from a page, too
 

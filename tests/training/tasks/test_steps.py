@@ -59,10 +59,17 @@ def test_a_press_must_last_without_a_break():
     there = {"right": (0.031, 0.03, -1e-3), "forces": (0.0, 0.04)}
     softer = there | {"forces": (0.0, 0.01)}
     assert played(of(PRESS), (1.05, there)).done
-    broken = played(of(PRESS), (0.9, there), (0.1, softer), (0.9, there))
+    broken = played(of(PRESS), (0.9, there), (0.3, softer), (0.9, there))
     assert not broken.done
     assert broken.mistakes == []
     assert broken.now == "Hold it so."
+
+
+def test_a_lapse_shorter_than_a_tremor_breaks_nothing():
+    there = {"right": (0.031, 0.03, -1e-3), "forces": (0.0, 0.04)}
+    softer = there | {"forces": (0.0, 0.01)}
+    assert played(of(PRESS), (0.6, there), (0.15, softer), (0.35, there)).done
+    assert not played(of(PRESS), (0.6, there), (0.15, softer), (0.2, there)).done
 
 
 @pytest.mark.parametrize(

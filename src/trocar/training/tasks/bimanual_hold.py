@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from trocar.training.score import Marking
-from trocar.training.tasks.bands import BANDS, FORCE_LIMIT, PASS_SCORE, PASS_SOURCE, RADII
+from trocar.training.tasks.bands import BANDS, FORCE_LIMIT, PASS_SOURCE, RADII, marking
 from trocar.training.tasks.step import LetGo, Press, Step, Together
 from trocar.training.tasks.task import Task
 
@@ -39,6 +38,6 @@ def bimanual_hold(level: int) -> Task:
         ports="usual",
         steps=tuple(steps),
         force_limit=FORCE_LIMIT,
-        marking=Marking(cutoff=60.0, expert_time=26.0, pass_score=PASS_SCORE),
+        marking=marking(level, expert_time=26.0),
         pass_source=PASS_SOURCE,
     )

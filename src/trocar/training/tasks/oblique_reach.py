@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from trocar.training.score import Marking
-from trocar.training.tasks.bands import BANDS, FORCE_LIMIT, PASS_SCORE, PASS_SOURCE, RADII
+from trocar.training.tasks.bands import BANDS, FORCE_LIMIT, PASS_SOURCE, RADII, marking
 from trocar.training.tasks.step import Press
 from trocar.training.tasks.task import Task
 
@@ -33,6 +32,6 @@ def oblique_reach(level: int) -> Task:
             for hand, place in _PLACES
         ),
         force_limit=FORCE_LIMIT,
-        marking=Marking(cutoff=54.0, expert_time=23.0, pass_score=PASS_SCORE),
+        marking=marking(level, expert_time=23.0),
         pass_source=PASS_SOURCE,
     )

@@ -10,6 +10,7 @@ from trocar.training.tasks.task import Task
 
 TOO_MUCH = "used too much force"
 _AGAIN = 0.5  # [s] a mistake that stops for less goes on
+LAPSE = 0.2  # [s] a step that is not met for less is still kept up: everybody's hand trembles
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +43,7 @@ class Progress:
         self.ended: list[float] = []
         """When each step that is done ended [s], in order."""
         self._met_since: float | None = None
+        self._met_last = 0.0
         self._begins = (
             True  # a step: what was right for the last one is no mistake in this, until it has ended
         )
@@ -74,8 +76,10 @@ class Progress:
         self._note(moment.time, step.mistake(moment), counts=not self._begins)
         self._begins = False
         if not step.met(moment):
-            self._met_since = None
+            if moment.time - self._met_last > LAPSE:
+                self._met_since = None
             return
+        self._met_last = moment.time
         if self._met_since is None:
             self._met_since = moment.time
         if moment.time - self._met_since >= step.lasting:

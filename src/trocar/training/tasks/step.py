@@ -42,7 +42,7 @@ class Step(Protocol):
 
     @property
     def lasting(self) -> float:
-        """How long it must be met without a break [s]."""
+        """How long it must be kept up [s]; lapses of `progress.LAPSE` are forgiven."""
         ...
 
     @property

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from math import pi, sin
 
-from trocar.training.score import Marking
-from trocar.training.tasks.bands import BANDS, FORCE_LIMIT, PASS_SCORE, PASS_SOURCE, RADII
+from trocar.training.tasks.bands import BANDS, FORCE_LIMIT, PASS_SOURCE, RADII, marking
 from trocar.training.tasks.step import Follow
 from trocar.training.tasks.task import Task
 
@@ -41,6 +40,6 @@ def trace(level: int) -> Task:
             for number in range(_POINTS)
         ),
         force_limit=FORCE_LIMIT,
-        marking=Marking(cutoff=46.0, expert_time=21.0, pass_score=PASS_SCORE),
+        marking=marking(level, expert_time=21.0),
         pass_source=PASS_SOURCE,
     )
