@@ -69,6 +69,7 @@ class Watcher:
         self._newest = queue.Queue(1)
         self.hello = json.loads(stream.recv(timeout=30))
         self.notices = []
+        self.guiding = None  # what the trainee is told to do
         self.reading = threading.Thread(target=self._read, daemon=True)
         self.reading.start()
 
@@ -78,12 +79,21 @@ class Watcher:
             self._newest.get_nowait()  # an older one
         return self._newest.get(timeout=60)
 
+    def _hear(self, message):
+        match message["type"]:
+            case "hello":
+                self.hello = message
+            case "guiding":
+                self.guiding = message
+            case _:
+                self.notices.append(message["text"])
+
     def _read(self):
         with suppress(ConnectionClosed):
             while True:
                 message = self._stream.recv()
                 if isinstance(message, str):
-                    self.notices.append(json.loads(message)["text"])
+                    self._hear(json.loads(message))
                     continue
                 sequence, snapshot = decode_frame(message)
                 self._stream.send(json.dumps({"type": "ack", "sequence": sequence}))

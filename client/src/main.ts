@@ -2,6 +2,7 @@
 
 import { ActiveHand } from "./input/device";
 import { GamepadDevice } from "./input/gamepad";
+import { Squeeze } from "./input/headset";
 import { Keyboard } from "./input/keyboard";
 import { listenToKeys, listenToPointer } from "./input/listen";
 import { Mouse } from "./input/mouse";
@@ -45,15 +46,17 @@ function start(): void {
     () => new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/live`),
   );
   const replay = new Replay();
-  const trainer = new Trainer(link, panel, theatre, drawn, immersion, [mouse, keyboard, gamepad], scopeKeys, replay);
+  const squeeze = new Squeeze(() => day.squeezed());
+  const trainer = new Trainer(link, panel, theatre, drawn, immersion, [mouse, keyboard, gamepad], scopeKeys, replay, squeeze);
   const day = new Day({
     replay,
-    guide: (guiding) => {
-      theatre.guide(guiding);
-      panel.ask(guiding);
-    },
+    ask: (asked) => trainer.ask(asked),
+    write: (lines) => theatre.write(lines),
     say: (level, text) => panel.notices.take({ type: "notice", level, text }),
-    focus: () => picture.focus({ preventScroll: true }),
+    begin: () => {
+      trainer.begin();
+      picture.focus({ preventScroll: true });
+    },
     show: (hello) => trainer.screen(hello),
   });
 

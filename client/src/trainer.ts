@@ -6,7 +6,7 @@
 
 import type { Device } from "./input/device";
 import { NEITHER } from "./input/device";
-import { HeadsetDevice } from "./input/headset";
+import { HeadsetDevice, type Squeeze } from "./input/headset";
 import type { ScopeKeys } from "./input/scope-keys";
 import { asHeld, type Drawn } from "./instrument/drawn";
 import { asSeen, Followed } from "./instrument/followed";
@@ -21,7 +21,7 @@ import type { Theatre } from "./scene/theatre";
 import type { Vector } from "./vector";
 import type { Frame } from "./wire/frame";
 import type { Link } from "./wire/link";
-import type { Hello } from "./wire/messages";
+import type { Asked, Hello } from "./wire/messages";
 
 const LONGEST = 0.1; // a longer pause moves nothing further [s]
 const SIDES = [0, 1] as const;
@@ -48,6 +48,7 @@ export class Trainer {
     private readonly devices: readonly Device[],
     private readonly scopeKeys: ScopeKeys,
     private readonly replay: Replay,
+    private readonly squeeze: Squeeze,
   ) {}
 
   /** Take what the trainer says first; the same again, after a lost connection, changes nothing that is held. */
@@ -64,8 +65,7 @@ export class Trainer {
   screen(hello: Hello | null): void {
     const shown = hello ?? this.hello;
     if (shown) this.look(shown);
-    this.theatre.guide(null);
-    this.panel.ask(null);
+    this.ask(null);
   }
 
   private look(hello: Hello): void {
@@ -76,6 +76,18 @@ export class Trainer {
     this.scope.choose(angle);
     this.centre = [hello.tissue.size_m[0] / 2, hello.tissue.size_m[1] / 2, 0];
     this.theatre.build(hello);
+  }
+
+  /** Show what a step asks for, in the scene and on the bars; null asks for nothing. */
+  ask(asked: Asked | null): void {
+    this.theatre.mark(asked?.marks ?? []);
+    this.panel.ask(asked);
+  }
+
+  /** Put the page's hands where they begin. */
+  begin(): void {
+    if (this.hello) this.hands = new Hands(this.hello);
+    for (const device of this.devices) device.begin?.();
   }
 
   chooseScope(angle: ScopeAngle): void {
@@ -118,9 +130,7 @@ export class Trainer {
     if (this.steers && hands) for (const side of SIDES) this.link.pose(side, hands.poses[side], now);
     const frame = this.replay.turn(seconds, now, look, this.centre);
     if (!frame) return;
-    const asked = this.replay.asked;
-    this.theatre.mark(asked?.marks ?? []);
-    this.panel.ask(asked);
+    this.ask(this.replay.asked);
     this.theatre.deform(frame);
     this.theatre.place([asSeen(frame.instruments[0]), asSeen(frame.instruments[1])]);
     this.panel.update(frame, now);
@@ -129,6 +139,7 @@ export class Trainer {
   private steer(hands: Hands, look: Look, now: number, seconds: number, xr: XRFrame | undefined): void {
     const view = this.picture.view(look, this.centre);
     this.tracked = this.immersion.controllers(xr);
+    this.squeeze.take(this.tracked, seconds);
     for (const device of [...this.devices, this.headset]) hands.move(device, view, seconds);
     for (const side of SIDES) this.link.pose(side, hands.poses[side], now);
   }

@@ -25,6 +25,9 @@ export interface View {
 }
 
 export interface Device {
+  /** The hands are put where they begin: what was asked of them before is over. */
+  begin?(): void;
+
   /**
    * Return the pose of each instrument, null for one this device leaves alone.
    *

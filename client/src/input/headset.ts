@@ -43,3 +43,25 @@ export class HeadsetDevice implements Device {
     };
   }
 }
+
+const SQUEEZED = 0.8; // of a trigger
+const LONG = 0.6; // both triggers are squeezed on purpose when for so long [s]
+
+/** Both triggers squeezed for a while: the word "begin" of somebody who does not see the page. */
+export class Squeeze {
+  private lasted = 0; // [s]; infinite once it was said, until a trigger is let go
+
+  /** @param said told once for each squeeze. */
+  constructor(private readonly said: () => void) {}
+
+  take(controllers: readonly [Controller | null, Controller | null], seconds: number): void {
+    if (!controllers.every((each) => each !== null && each.trigger > SQUEEZED)) {
+      this.lasted = 0;
+      return;
+    }
+    this.lasted += seconds;
+    if (this.lasted < LONG || this.lasted === Infinity) return;
+    this.lasted = Infinity;
+    this.said();
+  }
+}

@@ -58,6 +58,11 @@ export class Keyboard implements Device {
     this.held.clear();
   }
 
+  begin(): void {
+    this.open.fill(true);
+    this.reached.fill(1);
+  }
+
   poses(
     hands: readonly [Hand, Hand],
     view: View,

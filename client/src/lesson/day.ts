@@ -3,7 +3,7 @@
  * see how practice goes. What it needs of the rest of the page is in `Stage`.
  */
 
-import type { Guiding, Hello } from "../wire/messages";
+import type { Asked, Guiding, Hello } from "../wire/messages";
 import { type Attempt, type AttemptRow, get, post, type TaskLevel, type Trainee } from "../wire/rest";
 import { CardView } from "./card";
 import { type Choice, Choose } from "./choose";
@@ -19,12 +19,14 @@ const NO_LESSONS = "Free practice: press, slide on and lift the tissue. There is
 /** What a lesson asks of the page. */
 export interface Stage {
   readonly replay: Replay;
-  /** Show what to do now in the scene and on the bars; null shows nothing. */
-  guide(guiding: Guiding | null): void;
+  /** Show what a step asks for, in the scene and on the bars; null asks for nothing. */
+  ask(asked: Asked | null): void;
+  /** Write on the board that eyes in a headset see: what to do, what would bring it nearer, how it stands. */
+  write(lines: readonly [string, string, string]): void;
   /** Say a sentence at the top of the page. */
   say(level: "info" | "warning", words: string): void;
-  /** Bring the keyboard to the picture. */
-  focus(): void;
+  /** Put the hands where they begin and bring the keyboard to the picture. */
+  begin(): void;
   /** Show another tissue than the live one; null shows the live one again. */
   show(hello: Hello | null): void;
 }
@@ -41,6 +43,7 @@ export class Day {
   private tasks: readonly TaskLevel[] = [];
   private chosen: Choice | null = null;
   private attempt = 0; // number of the one that is under way; 0 if none is
+  private beginning = false;
   private offered = false;
 
   constructor(private readonly stage: Stage) {
@@ -58,7 +61,8 @@ export class Day {
   take(guiding: Guiding): void {
     if (guiding.attempt !== this.attempt) return; // another page's, or one that was left
     this.panel.update(guiding);
-    this.stage.guide(guiding.state === "running" ? guiding : null);
+    this.stage.ask(guiding.state === "running" ? guiding : null);
+    this.stage.write([guiding.words || "The attempt is over.", guiding.hint, standing(guiding)]);
     if (guiding.state === "running" || guiding.state === "marking") return;
     this.attempt = 0;
     if (guiding.state === "finished") void this.safely(() => this.open(guiding.attempt));
@@ -68,8 +72,15 @@ export class Day {
     }
   }
 
+  /** Begin what was chosen, or do it again: both triggers were squeezed. */
+  squeezed(): void {
+    const choice = this.chosen;
+    if (choice && this.attempt === 0 && !this.beginning) void this.safely(() => this.begin(choice));
+  }
+
   private free(): void {
     this.chosen = null;
+    this.stage.write(["", "", ""]);
     if (!this.offered) this.panel.free(NO_LESSONS, []);
     else this.panel.free(FREE, [["Choose a task", () => void this.safely(() => this.offer())]]);
   }
@@ -88,6 +99,7 @@ export class Day {
     this.stage.replay.close();
     this.chosen = choice;
     const { task, trainee } = choice;
+    this.stage.write([`${task.title}, level ${task.level}. ${task.purpose}`, "Squeeze both triggers to begin.", ""]);
     this.panel.brief(task, trainee, [
       ["Begin", () => void this.safely(() => this.begin(choice))],
       ["Watch the expert", () => void this.safely(() => this.watch(task))],
@@ -109,15 +121,19 @@ export class Day {
     const { task, trainee } = choice;
     this.stage.replay.close();
     this.panel.begin(task, []);
+    this.stage.begin();
+    this.card.close();
+    this.beginning = true;
     try {
       const row = await post<AttemptRow>("/api/attempts", { trainee, task: task.name, level: task.level });
       this.attempt = row.id;
     } catch (error) {
       this.brief(choice);
       throw error;
+    } finally {
+      this.beginning = false;
     }
     this.panel.offer([["End the attempt", () => void this.safely(() => post(`/api/attempts/${this.attempt}/end`, {}))]]);
-    this.stage.focus();
   }
 
   private async open(number: number): Promise<void> {
@@ -164,4 +180,9 @@ export class Day {
   private fail(error: Error): void {
     this.stage.say("warning", error.message);
   }
+}
+
+function standing(guiding: Guiding): string {
+  if (guiding.state !== "running") return "Leave the headset for the score card, or squeeze both triggers to try again.";
+  return `${guiding.left_s.toFixed(0)} s left, ${guiding.mistakes} ${guiding.mistakes === 1 ? "mistake" : "mistakes"}`;
 }

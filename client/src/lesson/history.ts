@@ -64,7 +64,7 @@ export class HistoryView {
     const caption = rows.length > MOST_ROWS ? `The newest ${MOST_ROWS} of ${rows.length} attempts` : "Attempts";
     table.createCaption().textContent = `${caption}, newest first`;
     const head = table.createTHead().insertRow();
-    head.append(...["began", "time", "score", ""].map((words) => make("th", "", words)));
+    head.append(...["began", "time", "score", "more"].map((words) => make("th", "", words)));
     const body = table.createTBody();
     for (const row of rows.toReversed().slice(0, MOST_ROWS)) {
       const score = row.score === null ? row.status : `${row.score.toFixed(0)}${row.passed ? ", passed" : ""}`;

@@ -58,6 +58,7 @@ const TABLES: readonly (readonly [string, Rows, string?])[] = [
     [
       ["controllers", "each is a handle, held in the fist"],
       ["trigger", "squeeze the jaw shut"],
+      ["both triggers, for a moment", "begin the task that was chosen, or do it again"],
     ],
     OF_HANDS,
   ],

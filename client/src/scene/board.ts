@@ -2,7 +2,7 @@
 
 import { CanvasTexture, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from "three";
 
-import type { Guiding, Hello } from "../wire/messages";
+import type { Hello } from "../wire/messages";
 
 const WIDTH = 0.16; // [m]
 const ACROSS = 1024; // [pixels]
@@ -35,10 +35,9 @@ export class Board {
     this.mesh.visible = shown && this.written !== "";
   }
 
-  /** Write what is to be done now; nothing leaves it empty. */
-  write(guiding: Guiding | null): void {
-    const lines = guiding ? [guiding.words || guiding.reason, guiding.hint, footer(guiding)] : [];
-    const text = lines.join("\n");
+  /** Write what to do, what would bring it nearer and how it stands; three empty lines leave it empty. */
+  write(lines: readonly [string, string, string]): void {
+    const text = lines.join("\n").trim();
     if (text === this.written) return;
     this.written = text;
     const paper = this.canvas.getContext("2d");
@@ -48,23 +47,18 @@ export class Board {
     paper.fillStyle = "#e8edf1";
     paper.font = "40px system-ui, sans-serif";
     let down = 64;
-    for (const line of wrapped(paper, lines[0] ?? "", ACROSS - 64)) {
+    for (const line of wrapped(paper, lines[0], ACROSS - 64)) {
       paper.fillText(line, 32, down);
       down += 50;
     }
     paper.fillStyle = "#ffb020";
     paper.font = "600 54px system-ui, sans-serif";
-    paper.fillText(lines[1] ?? "", 32, Math.max(down + 30, 260));
+    paper.fillText(lines[1], 32, Math.max(down + 30, 260));
     paper.fillStyle = "#b3c0ca";
     paper.font = "36px system-ui, sans-serif";
-    paper.fillText(lines[2] ?? "", 32, DOWN - 30);
+    paper.fillText(lines[2], 32, DOWN - 30);
     this.texture.needsUpdate = true;
   }
-}
-
-function footer(guiding: Guiding): string {
-  if (guiding.state !== "running") return "The attempt is over. Leave the headset for the score card.";
-  return `${guiding.left_s.toFixed(0)} s left, ${guiding.mistakes} ${guiding.mistakes === 1 ? "mistake" : "mistakes"}`;
 }
 
 function wrapped(paper: CanvasRenderingContext2D, text: string, width: number): string[] {

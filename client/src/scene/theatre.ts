@@ -4,7 +4,7 @@ import { Color, Group, Scene } from "three";
 
 import type { Drawn } from "../instrument/drawn";
 import type { Frame } from "../wire/frame";
-import type { Guiding, Hello, InstrumentShape, TaskMark } from "../wire/messages";
+import type { Hello, InstrumentShape, TaskMark } from "../wire/messages";
 import { Block } from "./block";
 import { Board } from "./board";
 import { makeCavity } from "./cavity";
@@ -52,10 +52,9 @@ export class Theatre {
     this.board.greet(hello);
   }
 
-  /** Show in the scene what is to be done now; null shows nothing. */
-  guide(guiding: Guiding | null): void {
-    this.mark(guiding?.marks ?? []);
-    this.board.write(guiding);
+  /** Write on the board that eyes in a headset see. */
+  write(lines: readonly [string, string, string]): void {
+    this.board.write(lines);
   }
 
   /** Draw these marks on the tissue and no others. */

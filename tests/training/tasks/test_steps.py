@@ -106,12 +106,14 @@ def test_a_line_is_followed_point_by_point():
     task = of(*(Follow(hand=1, curve=LINE, to=k, width=1e-3, least=0.004, most=0.05) for k in range(5)))
     parts = [(0.05, {"right": (*place, 0.0), "forces": (0.0, 0.02)}) for place in LINE]
     assert played(task, *parts).done
-    lifted = played(task, *parts[:2], (0.1, {"right": (*LINE[1], 1e-3)}), *parts[2:])
+    lifted = played(task, *parts[:2], (0.3, {"right": (*LINE[1], 1e-3)}), *parts[2:])
     assert [one.words for one in lifted.mistakes] == ["lifted off the line"]
-    hard = played(task, *parts[:2], (0.1, {"right": (*LINE[1], 0.0), "forces": (0.0, 0.06)}), *parts[2:])
+    hard = played(task, *parts[:2], (0.3, {"right": (*LINE[1], 0.0), "forces": (0.0, 0.06)}), *parts[2:])
     assert [one.words for one in hard.mistakes] == ["pressed too hard on the line"]
-    left = played(task, *parts[:2], (0.1, {"right": (0.031, 0.034, 0.0), "forces": (0.0, 0.02)}))
+    left = played(task, *parts[:2], (0.3, {"right": (0.031, 0.034, 0.0), "forces": (0.0, 0.02)}))
     assert [one.words for one in left.mistakes] == ["left the line"]
+    bounced = played(task, *parts[:2], (0.15, {"right": (*LINE[1], 1e-3)}), *parts[2:])
+    assert bounced.mistakes == []
 
 
 def test_both_hands_are_needed_together():

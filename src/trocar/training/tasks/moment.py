@@ -7,7 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from trocar.model import FloatArray
-from trocar.simulation import FORCE, TIP, TOUCH, TOUCH_HOLDING, TOUCH_TOUCHING
+from trocar.simulation import DEPTH, FORCE, RECORD_JAW, TIP, TOUCH, TOUCH_HOLDING, TOUCH_TOUCHING
+
+STRAYED = 1e-3  # [m] below the rest surface; no dent that a tip has just left is so deep
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +35,14 @@ class Moment:
     def touches(self, hand: int) -> bool:
         """Return whether a tip touches the tissue."""
         return bool(int(self.records[hand, TOUCH]) & TOUCH_TOUCHING)
+
+    def jaw(self, hand: int) -> float:
+        """Return how far a jaw is open, 0 to 1."""
+        return float(self.records[hand, RECORD_JAW])
+
+    def strayed(self, hand: int) -> bool:
+        """Return whether a tip is in the tissue without touching it: it was in there before the tissue was."""
+        return float(self.records[hand, DEPTH]) > STRAYED and not self.touches(hand) and not self.holds(hand)
 
     def holds(self, hand: int) -> bool:
         """Return whether a jaw holds the tissue."""

@@ -13,6 +13,8 @@ import numpy as np
 from trocar.contact.instrument import NAMES
 from trocar.training.tasks.moment import Moment
 
+_SHUT = 0.15  # of a jaw that has closed and would have taken hold before
+_TAKEN = 0.3  # of the most force: pressed with less, the tissue is gone before a jaw has closed
 Place = tuple[float, float]
 Band = tuple[float, float]
 
@@ -308,7 +310,10 @@ class Lift:
         if not moment.holds(self.hand):
             if moment.away(self.hand, self.place) > self.radius:
                 return "Go to the mark, jaw open."
-            return "Close the jaw on it." if moment.touches(self.hand) else "Touch the tissue, jaw open."
+            if moment.jaw(self.hand) < _SHUT:
+                return "Open the jaw again: it closed on nothing."
+            pressed = moment.force(self.hand) > _TAKEN * self.most
+            return "Close the jaw on it." if pressed else "Press lightly, jaw open."
         return "Raise it, straight up." if float(moment.tip(self.hand)[2]) < self.height else "Hold it so."
 
     def mistake(self, moment: Moment) -> str:

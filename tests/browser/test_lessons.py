@@ -1,0 +1,232 @@
+"""A trainee's day in a real browser: every task passed with mouse and keyboard, the card read, looked at again."""
+
+from __future__ import annotations
+
+import re
+import time
+
+import numpy as np
+import pytest
+
+from browser.by_hand import ByHand
+from browser.open_page import MODULES, axe_is_content
+from live_process import training, watching
+from trocar.training.tasks.catalogue import TASKS, task
+
+PATIENCE = 120.0  # [s] for a page drawn by software on a busy machine; nothing here is about speed
+HEADSET = """
+  window.xrDevice = new IWER.XRDevice(IWER.metaQuest3);
+  xrDevice.installRuntime({forceInstall: true});
+  xrDevice.position.set(0, 1.6, 0);
+  xrDevice.controllers.left.position.set(-0.15, 1.45, -0.3);
+  xrDevice.controllers.right.position.set(0.15, 1.45, -0.3);
+"""
+
+
+def script(*path):
+    return (MODULES.joinpath(*path)).read_text(encoding="utf-8") if MODULES.is_dir() else ""
+
+
+@pytest.fixture(scope="module")
+def address():
+    with training() as (_, address):
+        yield address
+
+
+@pytest.fixture
+def lesson(browser, address, request):
+    """Open the page and look on beside it; yields a trainee."""
+    with watching(address) as watcher:
+        context = browser.new_context(viewport={"width": 900, "height": 560})
+        page = context.new_page()
+        complaints = []
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.add_init_script(script("axe-core", "axe.min.js"))
+        if getattr(request, "param", ""):
+            page.add_init_script(request.param)
+        page.goto(address)
+        page.select_option("#sharpness", "fast")
+        yield Trainee(page, watcher)
+        context.close()
+    assert complaints == []
+
+
+class Trainee:
+    """Somebody at the page."""
+
+    def __init__(self, page, watcher):
+        self.page, self.watcher = page, watcher
+
+    def until(self, told, what):
+        end = time.monotonic() + PATIENCE
+        while not told():
+            assert time.monotonic() < end, f"it never came to this: {what}"
+            self.page.wait_for_timeout(30)
+
+    def button(self, name):
+        return self.page.get_by_role("button", name=name, exact=True)
+
+    def choose(self, name, level=1, who="Ada"):
+        self.button("Choose a task").or_(self.button("Another task")).click()
+        self.page.wait_for_selector("#choose[open]")
+        self.page.fill("#trainee", who)
+        self.page.check(f"input[value='{name} {level}']")
+        self.button("Go on").click()
+
+    def begin(self):
+        """Begin the attempt and return its number."""
+        before = self.watcher.guiding["attempt"] if self.watcher.guiding else 0
+        self.button("Begin").click()
+        self.until(
+            lambda: self.watcher.guiding is not None and self.watcher.guiding["attempt"] > before,
+            "the attempt begins",
+        )
+        return self.watcher.guiding["attempt"]
+
+    def card(self):
+        """Wait for the score card and return the verdict."""
+        self.page.wait_for_selector("#card[open]", timeout=1e3 * PATIENCE)
+        return self.page.inner_text("#card .verdict")
+
+    def figures_are_drawn(self, where):
+        """Wait until every picture in a dialog is there, and large."""
+        self.until(
+            lambda: all(
+                self.page.locator(f"{where} figure img").evaluate_all(
+                    "all => all.map((each) => each.complete && each.naturalWidth > 300)"
+                )
+            ),
+            f"the pictures of {where}",
+        )
+        assert self.page.locator(f"{where} figure img").count() >= 2
+
+    def closes(self, dialog):
+        self.page.locator(dialog).get_by_role("button", name="Close", exact=True).click()
+        assert not self.page.locator(dialog).is_visible()
+
+
+@pytest.mark.parametrize("name", list(TASKS))
+def test_every_task_is_passed_with_mouse_and_keyboard_by_who_does_as_he_is_told(lesson, name):
+    lesson.choose(name)
+    assert task(name).title in lesson.page.inner_text("#task")
+    number = lesson.begin()
+    said = ByHand(lesson.page, lesson.watcher).do(number, 2 * task(name).marking.cutoff)
+    assert said["state"] in {"marking", "finished"}
+    verdict = lesson.card()
+    assert re.search(r"\d of 100, passed", verdict), verdict
+    lesson.closes("#card")
+
+
+def test_a_day_from_the_choice_to_the_history(lesson):
+    page = lesson.page
+    lesson.button("Choose a task").click()
+    page.wait_for_selector("#choose[open]")
+    axe_is_content(page)
+    page.get_by_role("button", name="Not now").click()
+    lesson.choose("palpate", who="Grace")
+    axe_is_content(page)
+
+    lesson.button("Watch the expert").click()
+    page.wait_for_selector("#film:not([hidden])", timeout=1e3 * PATIENCE)
+    lesson.until(lambda: "touching" in page.inner_text("#bars"), "the expert touches the tissue")
+    axe_is_content(page)
+    page.locator("#film-close").click()
+
+    number = lesson.begin()
+    hands = ByHand(page, lesson.watcher)
+    lesson.until(lambda: page.inner_text("#task .hint") not in {"", "Get ready."}, "a hint is shown")
+    end = time.monotonic() + PATIENCE
+    while lesson.watcher.guiding["step"] < 1:
+        hands.state = lesson.watcher.look()
+        hands.obey(lesson.watcher.guiding)
+        assert time.monotonic() < end
+    lesson.until(lambda: "1 of 3" in page.inner_text("#task .steps"), "the first place is counted")
+    assert page.locator("#task li[aria-current=step]").count() == 1
+    axe_is_content(page)
+    lesson.button("End the attempt").click()
+    assert "0 of 100, not passed" in lesson.card()
+    assert "The attempt ended at step 2" in page.inner_text("#card .advice")
+    lesson.figures_are_drawn("#card")
+    axe_is_content(page)
+    page.locator("#card summary").click()
+    assert "path length" in page.inner_text("#card")
+
+    page.locator("#card").get_by_role("button", name="Say what you think").click()
+    page.wait_for_selector("#questions[open]")
+    axe_is_content(page)
+    page.locator("#questions fieldset").first.get_by_label("4 rather agree").check()
+    page.get_by_role("button", name="Send").click()
+    lesson.until(lambda: "your answers are kept" in page.inner_text("#notice"), "thanks")
+
+    lesson.button("History").click()
+    page.wait_for_selector("#history[open]")
+    lesson.figures_are_drawn("#history")
+    assert "two passes in a row" in page.inner_text("#history-charts")
+    axe_is_content(page)
+    page.get_by_role("button", name=f"Score card of attempt {number}").click()
+    lesson.card()
+
+    page.locator("#card").get_by_role("button", name=re.compile("Look at it again")).click()
+    page.wait_for_selector("#beside:not([hidden])", timeout=1e3 * PATIENCE)
+    lesson.until(lambda: not page.inner_text("#film-told").startswith("0.0"), "the film runs")
+    axe_is_content(page)
+    duration = float(page.get_attribute("#film-time", "max"))
+    share = page.locator("#film-ticks .step").evaluate_all(
+        "all => all.map((each) => parseFloat(each.style.left))"
+    )
+    assert len(share) == 1
+    done = 0.01 * share[0] * duration
+    page.locator("#film-time").fill(f"{0.04 * round((done - 0.5) / 0.04):.2f}")
+    lesson.until(
+        lambda: "touching" in page.inner_text("#bars"), "half a second before it was done the tip pressed"
+    )
+    both = [page.locator(each).screenshot() for each in ("#canvas", "#beside-canvas")]
+    assert both[0] != both[1]
+    page.locator("#film-close").click()
+    assert not page.locator("#beside").is_visible()
+    lesson.until(lambda: "free" in page.inner_text("#bars"), "the live tissue is there again")
+
+
+@pytest.mark.parametrize(
+    "lesson", [script("iwer", "build", "iwer.min.js") + ";" + HEADSET], indirect=True, ids=["headset"]
+)
+def test_a_task_is_done_with_an_emulated_headset(lesson):
+    """Choose on the page, enter the headset, do the first step with a controller, leave, read the card."""
+    page, watcher = lesson.page, lesson.watcher
+    lesson.choose("palpate", who="Grace")
+    page.get_by_role("button", name="Enter the headset").click()
+    squeeze = "(share) => [xrDevice.controllers.left, xrDevice.controllers.right].forEach((each) => each.updateButtonValue('trigger', share))"
+    before = watcher.guiding["attempt"] if watcher.guiding else 0
+    lesson.until(lambda: all(each.touch for each in watcher.look().instruments), "both controllers are there")
+    page.evaluate(squeeze, 1.0)
+    lesson.until(lambda: watcher.guiding is not None and watcher.guiding["attempt"] > before, "it begins")
+    page.evaluate(squeeze, 0.0)
+    number = watcher.guiding["attempt"]
+    shape = watcher.hello["instruments"][1]
+    port, length = np.array(shape["port_m"]), shape["length_m"]
+    place = np.array([0.15, 1.45, -0.3])
+    end = time.monotonic() + PATIENCE
+    while watcher.guiding["step"] == 0 and watcher.guiding["attempt"] == number:
+        assert time.monotonic() < end, watcher.guiding
+        state = watcher.look().instruments[1]
+        tip, force = np.array(state.tip), float(np.linalg.norm(state.force))
+        mark = watcher.guiding["marks"][0]
+        away = np.hypot(*(tip[:2] - mark["place_m"]))
+        deeper = (0.035 - force) / 350 if force else -2e-4
+        z = tip[2] + (np.clip(-deeper, -6e-5, 2e-4) if away < 2e-3 and tip[2] < 4e-4 else -1)
+        to = np.array([*mark["place_m"], z if z > -0.5 else (3e-4 if away < 2e-3 else 6e-3)])
+        handle = to + length * (port - to) / np.linalg.norm(port - to)
+        now = tip - length * np.array(state.direction)
+        step = handle - now
+        step *= min(1.0, 0.01 / max(np.linalg.norm(step), 1e-9))
+        place += [step[0], step[2], -step[1]]
+        page.evaluate("([x, y, z]) => xrDevice.controllers.right.position.set(x, y, z)", place.tolist())
+        page.wait_for_timeout(60)
+    page.locator("#headset").dispatch_event(
+        "click"
+    )  # the headset lies over the page, as the emulator shows it
+    lesson.button("End the attempt").click()
+    assert "not passed" in lesson.card()
+    assert "The attempt ended at step 2" in page.inner_text("#card .advice")
+    lesson.figures_are_drawn("#card")
