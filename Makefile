@@ -51,6 +51,7 @@ pictures: .venv/ready  ## draw the README's pictures again, out of a study, into
 .PHONY: shots
 shots: .venv/ready  ## take the trainer's pictures with Chromium, into docs/_static/trainer/
 	@.venv/bin/python bench/shots.py
+	.venv/bin/python bench/lesson_shots.py
 
 .PHONY: wheel
 wheel: .venv/ready  ## build the wheel into dist/

@@ -81,6 +81,7 @@ function start(): void {
     headset: () => void headset(),
     sharpness: (choice: typeof drawn.choice) => {
       drawn.choice = choice;
+      replay.choice = choice;
     },
   };
   connectControls(actions);

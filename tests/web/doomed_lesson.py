@@ -20,7 +20,7 @@ from websockets.sync.client import connect
 
 from trocar.records.store import Records
 from trocar.training.strip import recorded
-from trocar.web.wire import encode_pose
+from trocar.web.wire import decode_frame, encode_pose
 from web.scripted_source import rest_pose
 
 LAST = 1.0  # [s] so much may be missing at the end
@@ -77,6 +77,8 @@ class Trainer:
         connection.request("GET", f"/?{address.query}")
         self.cookie = connection.getresponse().getheader("set-cookie").partition(";")[0]
         connection.close()
+        self.newest = None
+        """The state that came last."""
         self._hand = threading.Thread(target=self._move, daemon=True)
         self._hand.start()
 
@@ -145,7 +147,7 @@ class Trainer:
                 while True:
                     message = stream.recv()
                     if isinstance(message, bytes):
-                        taken = int.from_bytes(message[4:8], "little")
+                        taken, self.newest = decode_frame(message)
                         stream.send(json.dumps({"type": "ack", "sequence": taken}))
                         sequence += 1
                         stream.send(encode_pose(rest_pose(1, sequence, roll=0.01 * sequence)))

@@ -45,9 +45,7 @@ export class HistoryView {
         get<History>(`/api/history?${asked}`),
         get<AttemptRow[]>(`/api/attempts?${asked}`),
       ]);
-      const remains = history.attempts.length
-        ? `To proficiency there remains ${history.remains}.`
-        : "No attempt has been finished yet. Two passes in a row make proficient.";
+      const remains = standing(history);
       this.charts.replaceChildren(
         make("p", "", remains),
         figure(`/api/history/figures/learning.svg?${asked}`, `Learning curve: score against attempt. ${remains}`),
@@ -90,4 +88,10 @@ export class HistoryView {
     }
     return table;
   }
+}
+
+function standing(history: History): string {
+  if (history.proficient_after !== null) return `Proficient since attempt ${history.proficient_after} at this task.`;
+  if (history.attempts.length > 0) return `To proficiency there remains: ${history.remains}.`;
+  return "No attempt has been finished yet. Two passes in a row make proficient.";
 }

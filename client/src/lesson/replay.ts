@@ -3,6 +3,7 @@
 import { byId, say } from "../panel/element";
 import { Picture } from "../scene/picture";
 import type { Look } from "../scene/scope";
+import type { Choice } from "../scene/sharpness";
 import { Theatre } from "../scene/theatre";
 import type { Vector } from "../vector";
 import type { Frame } from "../wire/frame";
@@ -39,6 +40,11 @@ export class Replay {
     });
     this.speed.addEventListener("change", () => (this.clock.speed = Number(this.speed.value)));
     byId("film-close", HTMLButtonElement).addEventListener("click", () => this.close());
+  }
+
+  /** Draw the other picture as sharply as the page's own. */
+  set choice(choice: Choice) {
+    this.beside.picture.choice = choice;
   }
 
   /** Show a film. @param other is shown beside it; null for none. @param closed told when it is over. */

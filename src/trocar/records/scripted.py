@@ -19,19 +19,34 @@ def attempt_on_record(
     level: int = 1,
     skill: str = Skill.EXPERT,
     seed: int = 0,
+    trainee: str | None = None,
     real_time: bool = False,
     watch: Callable[[float, float], None] = lambda time, limit: None,
 ) -> Attempted:
     """Let a scripted trainee do a task as `training.headless.attempt` does, and keep it as it goes.
+
+    Args:
+        records: open for writing.
+        name: of the task.
+        level: of it.
+        skill: "expert" or "novice".
+        seed: of the trainee's chances, 0 or above.
+        trainee: under whose name it is kept; "scripted expert" or "scripted novice" if not given.
+        real_time: whether it may be no faster than a person.
+        watch: told the attempt's time and the most it can be [s], ten times a second of its own.
 
     Raises:
         InputError: there is no such task, level or skill, or the seed is negative.
         RecordsError: it cannot be kept.
     """
     task = task_by_name(name, level)
-    trainee = records.trainee(f"scripted {skill_of(skill)}")
     number = records.begin(
-        trainee, task=task.name, level=level, device="simulated", header=header(DT, None), dt=DT
+        records.trainee(trainee or f"scripted {skill_of(skill)}"),
+        task=task.name,
+        level=level,
+        device="simulated",
+        header=header(DT, None),
+        dt=DT,
     )
     try:
         done = attempt(
