@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import logging
 import threading
+import time
 from dataclasses import dataclass
 
 from trocar.errors import InputError, TrocarError
@@ -24,6 +25,7 @@ from trocar.web.stage import stage_of
 from trocar.web.trainer import Trainer
 
 LOOK_EVERY = 0.04  # [s]
+_SERVO_BACK = 30.0  # [s] for a servo that died and is being started again
 _TOLD_EVERY = 0.1  # [s] of what changes steadily
 _SHOWN_AFTERWARDS = 5.0  # [s] that the end of an attempt is told to pages that come
 _LOG = logging.getLogger(__name__)
@@ -112,6 +114,11 @@ class Lessons:
     def _set_up(self, task: Task) -> None:
         if not self._trainer.stage.suits(task):
             self._trainer.enter(stage_of(task))
+        end = time.monotonic() + _SERVO_BACK
+        while not self._trainer.runs:
+            if time.monotonic() > end:
+                raise TrocarError("the trainer: its servo does not run; stop the trainer and start it anew")
+            time.sleep(LOOK_EVERY)
 
     def _follow(self, number: int, live: LiveAttempt, stop: threading.Event, closed: threading.Event) -> None:
         """Be an attempt's thread."""

@@ -25,6 +25,7 @@ from trocar.web.stage import Stage
 
 SMOOTHING = 8e-3  # [s] by which instruments follow poses that come at a display's rate
 _DEVICE_PERIOD = 4e-3  # [s] between poses of a device of the trainer's own
+_TICKING = 0.5  # [s] since its last tick, at most
 _RESTARTS = 3  # of a servo that died
 _MOST_SEQUENCE = 2**32 - 1
 _QUIET = 5.0  # [s] before the same sentence is said again
@@ -94,6 +95,11 @@ class Trainer:
     def servo(self) -> Servo:
         """What moves the tissue."""
         return self._servo
+
+    @property
+    def runs(self) -> bool:
+        """Whether the servo ticks."""
+        return self._servo.alive and self._servo.latest().age < _TICKING
 
     @property
     def stage(self) -> Stage:
