@@ -5,7 +5,7 @@ docs/explanation/scores.md, prints every metric twice, and exits 1 if one differ
 
     trocar train --headless --device simulated --task palpate --out attempt.rec --json > card.json
 
-writes a recording and its card, and `trocar.training.table.write_table` the recording's table.
+writes a recording and its card, and `trocar replay RECORDING --table` the table.
 """
 
 from __future__ import annotations

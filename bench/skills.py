@@ -1,6 +1,6 @@
 """Let the scripted expert and novice do every task with many seeds, and print their scores.
 
-Run: python bench/skills.py [--seeds 20] [--level 1]. Exits 1 if the novice is ever as good as the expert.
+Run: python bench/skills.py [--seeds 20] [--level 1] [--task NAME ...]. Exits 1 if the novice is ever as good as the expert.
 """
 
 from __future__ import annotations
@@ -22,9 +22,10 @@ def main() -> int:
     )
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--level", type=int, default=1)
+    parser.add_argument("--task", choices=list(TASKS), action="append", help="all if not given")
     arguments = parser.parse_args()
     worse = True
-    for name in TASKS:
+    for name in arguments.task or TASKS:
         found = {skill: [] for skill in Skill}
         for seed in range(arguments.seeds):
             for skill in Skill:

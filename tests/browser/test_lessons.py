@@ -146,6 +146,10 @@ def test_a_day_from_the_choice_to_the_history(lesson):
     page.locator("#film-close").click()
 
     number = lesson.begin()
+    page.reload()  # a page that comes meanwhile takes the attempt up
+    page.select_option("#sharpness", "fast")
+    lesson.until(lambda: lesson.button("End the attempt").is_visible(), "the attempt is taken up")
+    page.locator("#picture").focus()
     hands = ByHand(page, lesson.watcher)
     lesson.until(lambda: page.inner_text("#task .hint") not in {"", "Get ready."}, "a hint is shown")
     end = time.monotonic() + PATIENCE

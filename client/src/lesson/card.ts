@@ -33,6 +33,7 @@ export class CardView {
       this.buttons(offers),
       ...FIGURES.map(([name, alt]) => figure(`/api/attempts/${attempt.id}/figures/${name}.svg`, alt)),
       make("h3", "", "In figures"),
+      make("p", "note", skipped(card)),
       metrics(card, (name) => FIRST.includes(name)),
       others(card),
     );
@@ -67,6 +68,12 @@ export function figure(source: string, alt: string): HTMLElement {
   image.alt = alt;
   made.append(image);
   return made;
+}
+
+function skipped(card: ScoreCard): string {
+  const time = card.skipped_s;
+  if (time === 0) return "The tissue kept the clock's time throughout.";
+  return `The servo skipped ${time.toFixed(3)} s; the tissue's clock, by which you are timed, stood still for so long.`;
 }
 
 function others(card: ScoreCard): HTMLElement {

@@ -4,7 +4,7 @@
  */
 
 import type { Asked, Guiding, Hello } from "../wire/messages";
-import { type Attempt, type AttemptRow, get, post, type TaskLevel, type Trainee } from "../wire/rest";
+import { type Attempt, type AttemptRow, get, post, type ScoreCard, type TaskLevel, type Trainee } from "../wire/rest";
 import { CardView } from "./card";
 import { type Choice, Choose } from "./choose";
 import { Film } from "./film";
@@ -59,7 +59,8 @@ export class Day {
 
   /** Take what the trainer says of the attempt that is under way. */
   take(guiding: Guiding): void {
-    if (guiding.attempt !== this.attempt) return; // another page's, or one that was left
+    if (this.attempt === 0 && !this.beginning && guiding.state === "running") void this.safely(() => this.takeUp(guiding.attempt));
+    if (guiding.attempt !== this.attempt) return;
     this.panel.update(guiding);
     this.stage.ask(guiding.state === "running" ? guiding : null);
     this.stage.write([guiding.words || "The attempt is over.", guiding.hint, standing(guiding)]);
@@ -76,6 +77,27 @@ export class Day {
   squeezed(): void {
     const choice = this.chosen;
     if (choice && this.attempt === 0 && !this.beginning) void this.safely(() => this.begin(choice));
+  }
+
+  /** Take up an attempt that another page began, or this one before it was loaded again. */
+  private async takeUp(number: number): Promise<void> {
+    this.attempt = number;
+    const row = await get<AttemptRow>(`/api/attempts/${number}`);
+    const task = await this.taskOf(row);
+    this.chosen = { trainee: row.trainee, task };
+    this.panel.begin(task, []);
+    this.offerEnd();
+  }
+
+  private async taskOf(row: AttemptRow): Promise<TaskLevel> {
+    if (this.tasks.length === 0) this.tasks = await get<TaskLevel[]>("/api/tasks");
+    const task = this.tasks.find((each) => each.name === row.task && each.level === row.level);
+    if (!task) throw new Error(`There is no task ${row.task} at level ${row.level} any more.`);
+    return task;
+  }
+
+  private offerEnd(): void {
+    this.panel.offer([["End the attempt", () => void this.safely(() => post(`/api/attempts/${this.attempt}/end`, {}))]]);
   }
 
   private free(): void {
@@ -133,16 +155,15 @@ export class Day {
     } finally {
       this.beginning = false;
     }
-    this.panel.offer([["End the attempt", () => void this.safely(() => post(`/api/attempts/${this.attempt}/end`, {}))]]);
+    this.offerEnd();
   }
 
   private async open(number: number): Promise<void> {
-    if (this.tasks.length === 0) this.tasks = await get<TaskLevel[]>("/api/tasks");
     const attempt = await get<Attempt>(`/api/attempts/${number}`);
-    const task = this.tasks.find((each) => each.name === attempt.task && each.level === attempt.level);
-    if (!task) return;
+    const task = await this.taskOf(attempt);
     const choice = { trainee: attempt.trainee, task };
     this.brief(choice);
+    if (attempt.card) this.stage.write([...result(attempt.card), "Squeeze both triggers to try again."]);
     const offers: Offer[] = [
       ["Try again", () => void this.safely(() => this.begin(choice))],
       ["Look at it again, beside the expert", () => void this.safely(() => this.compare(attempt, task))],
@@ -182,7 +203,13 @@ export class Day {
   }
 }
 
+/** The score, and what to do better first, for eyes in a headset. */
+function result(card: ScoreCard): [string, string] {
+  const verdict = `${card.score.toFixed(0)} of 100, ${card.passed ? "passed" : "not passed"}`;
+  return [card.advice[0] ?? "", verdict];
+}
+
 function standing(guiding: Guiding): string {
-  if (guiding.state !== "running") return "Leave the headset for the score card, or squeeze both triggers to try again.";
+  if (guiding.state !== "running") return "The attempt is being marked.";
   return `${guiding.left_s.toFixed(0)} s left, ${guiding.mistakes} ${guiding.mistakes === 1 ? "mistake" : "mistakes"}`;
 }

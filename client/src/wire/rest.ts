@@ -45,6 +45,7 @@ export interface ScoreCard {
   readonly passed: boolean;
   readonly completed: boolean;
   readonly duration_s: number;
+  readonly skipped_s: number;
   readonly metrics: Readonly<Record<string, { readonly value: number; readonly unit: string }>>;
   readonly mistakes: readonly { readonly time_s: number; readonly step: number; readonly words: string }[];
   readonly advice: readonly string[];

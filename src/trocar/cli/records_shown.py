@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 
 def print_attempts(found: Sequence[AttemptRow]) -> None:
     """Print a list of attempts; 80 columns hold it."""
-    table = _table("id", "began", "trainee", "task", "level", "time", "score", "")
-    for column in (0, 4, 5, 6):
+    table = _table("id", "began", "trainee", "task", "level", "time", "score")
+    for column in (0, 4, 5):
         table.columns[column].justify = "right"
-    for column in (0, 1, 3, 4, 5, 6, 7):
+    for column in (0, 1, 3, 4, 5, 6):
         table.columns[column].no_wrap = True
-    table.columns[2].overflow, table.columns[2].min_width = "fold", 15
+    table.columns[2].overflow = "fold"
     for row in found:
         table.add_row(
             str(row.id),
@@ -32,8 +32,7 @@ def print_attempts(found: Sequence[AttemptRow]) -> None:
             escape(row.task),
             str(row.level),
             f"{row.duration:.1f} s",
-            "" if row.score is None else f"{row.score:.1f}",
-            _status(row) if row.passed is None else _verdict(row.passed),
+            _status(row) if row.score is None else f"{row.score:.1f} {_verdict(row.passed)}",
         )
     _print(table)
 

@@ -40,6 +40,10 @@ def print_card(
     )
     for words in card.advice:
         console.print(f"  {words}")
+    if card.skipped > 0:
+        console.print(
+            f"  The servo skipped {card.skipped:.3f} s; the tissue's clock, by which you are timed, stood still."
+        )
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False)
     table.add_column("metric")
     table.add_column("value", justify="right")

@@ -93,7 +93,7 @@ def train(
         )
         return
     for option in (option for option, given in attempted.items() if given is not None):
-        raise typer.BadParameter(f"--{option} is for --headless: the page has free practice alone so far")
+        raise typer.BadParameter(f"--{option} is for --headless: on the page, tasks are chosen there")
 
     from rich.console import Console
 

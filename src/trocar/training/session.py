@@ -7,7 +7,7 @@ once more, forces come out of that, and task and metrics see nothing else.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from math import isfinite, nan
 
@@ -80,6 +80,7 @@ class Card:
         metrics: by name; nan where one does not exist.
         mistakes: in order.
         advice: what to do better, the most useful first.
+        skipped: time the servo missed meanwhile [s]; the tissue's clock, by which an attempt is timed, stood still.
     """
 
     task: str
@@ -91,6 +92,7 @@ class Card:
     metrics: Mapping[str, float]
     mistakes: tuple[Mistake, ...]
     advice: tuple[str, ...]
+    skipped: float = 0.0
 
     def as_dict(self) -> dict[str, object]:
         """Return it as JSON takes it; a metric that does not exist is left out."""
@@ -102,6 +104,7 @@ class Card:
             "passed": self.passed,
             "completed": self.completed,
             "duration_s": self.duration,
+            "skipped_s": self.skipped,
             "metrics": {
                 name: {"value": value, "unit": units[name]}
                 for name, value in self.metrics.items()
@@ -197,7 +200,8 @@ def assess(task: Task, recording: Recording) -> Card:
     Raises:
         InputError: nobody holds an instrument in it, or its ticks are not the scene's.
     """
-    return marked(task, *replayed(task, recording))
+    card = marked(task, *replayed(task, recording))
+    return replace(card, skipped=recording.skipped * recording.dt)
 
 
 def marked(task: Task, attempt: Attempt, progress: Progress) -> Card:

@@ -35,19 +35,19 @@ _FRAMES, _SVG = "application/octet-stream", "image/svg+xml"
 _FIGURES = {"forces": forces, "paths": paths, "time": time_spent}
 
 
-class _Asked(BaseModel):
+class Body(BaseModel):
     """What every body shares: nothing is converted, nothing unknown is let through."""
 
     model_config = ConfigDict(strict=True, extra="forbid")
 
 
-class NewTrainee(_Asked):
+class NewTrainee(Body):
     """Who trains from now on."""
 
     name: str = Field(max_length=200)
 
 
-class NewAttempt(_Asked):
+class NewAttempt(Body):
     """What is to be attempted, and by whom."""
 
     trainee: str = Field(max_length=200)
@@ -55,7 +55,7 @@ class NewAttempt(_Asked):
     level: int = 1
 
 
-class NewAnswers(_Asked):
+class NewAnswers(Body):
     """What a trainee thinks of the trainer."""
 
     trainee: str = Field(max_length=200)
@@ -180,7 +180,7 @@ def routes(lessons: Lessons) -> APIRouter:
         task: Annotated[str, Query(max_length=80)],
         level: int = 1,
     ) -> dict[str, object]:
-        return records.history(trainee, task, level).as_dict()
+        return records.history(trainee, task_by_name(task, level).name, level).as_dict()
 
     @api.get("/questionnaire", summary="What trainees are asked about the trainer")
     def questionnaire() -> dict[str, object]:

@@ -151,8 +151,8 @@ class Lessons:
         if guidance.ending in MARKED:
             try:
                 card = assess(live.task, live.recording)
-            except TrocarError as error:  # nobody held an instrument
-                reason = str(error)
+            except InputError:
+                reason = "nobody held an instrument"
             except Exception:  # noqa: BLE001 - a fault of ours must not leave the page waiting
                 _LOG.exception("attempt %d could not be marked", number)
                 reason = "it could not be marked"

@@ -24,7 +24,7 @@ from trocar.training.figures.page import (
     thinned,
     times_over,
 )
-from trocar.training.figures.stages import Stage, hands_asked, stage_steps, stages_of
+from trocar.training.figures.stages import Stretch, hands_asked, stage_steps, stages_of
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.metrics.forces import TOUCHING
 from trocar.training.tasks.progress import Progress
@@ -70,7 +70,7 @@ def forces(attempt: Attempt, progress: Progress, expert: tuple[Attempt, Progress
 
 
 def _panel(
-    axes: Axes, hand: int, attempt: Attempt, stages: list[Stage], top: float, *, numbered: bool
+    axes: Axes, hand: int, attempt: Attempt, stages: list[Stretch], top: float, *, numbered: bool
 ) -> None:
     colour = HAND_COLOURS[hand]
     for stage in stages:
@@ -90,7 +90,7 @@ def _panel(
     axes.grid(visible=False, axis="x")
 
 
-def _numbers(axes: Axes, stages: list[Stage], end: float) -> None:
+def _numbers(axes: Axes, stages: list[Stretch], end: float) -> None:
     across = blended_transform_factory(axes.transData, axes.transAxes)
     axes.text(-0.008, 1.01, "step", transform=axes.transAxes, ha="right", va="bottom", color=DIM, fontsize=9)
     for stage in stages:
@@ -137,7 +137,7 @@ def _legend(figure: Figure, hands: list[int], expert: bool) -> None:
 
 
 def _stretched(
-    attempt: Attempt, progress: Progress, hand: int, stages: list[Stage]
+    attempt: Attempt, progress: Progress, hand: int, stages: list[Stretch]
 ) -> tuple[FloatArray, FloatArray]:
     """Return another's force, each stage stretched to when the trainee's was."""
     times, values = [], []

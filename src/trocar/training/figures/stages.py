@@ -12,7 +12,7 @@ from trocar.training.tasks.task import Task
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stage:
+class Stretch:
     """One or more steps that are one thing to do.
 
     Attributes:
@@ -44,9 +44,9 @@ def stage_steps(task: Task) -> list[range]:
     return found
 
 
-def stages_of(attempt: Attempt, progress: Progress) -> list[Stage]:
+def stages_of(attempt: Attempt, progress: Progress) -> list[Stretch]:
     """Return the stages that an attempt came to, in order; the last may not be done."""
-    found: list[Stage] = []
+    found: list[Stretch] = []
     ends, begin = progress.ended, 0.0
     for number, steps in enumerate(stage_steps(progress.task), 1):
         if steps.start > len(ends) or (found and not found[-1].done):
@@ -55,7 +55,9 @@ def stages_of(attempt: Attempt, progress: Progress) -> list[Stage]:
         end = ends[steps.stop - 1] if done else float(attempt.times[-1])
         step = progress.task.steps[steps.stop - 1]
         found.append(
-            Stage(number=number, steps=steps, step=step, begin=begin, end=end, done=done, words=_words(step))
+            Stretch(
+                number=number, steps=steps, step=step, begin=begin, end=end, done=done, words=_words(step)
+            )
         )
         begin = end
     return found

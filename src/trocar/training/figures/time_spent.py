@@ -10,7 +10,7 @@ from matplotlib.patches import Patch
 from matplotlib.transforms import blended_transform_factory
 
 from trocar.training.figures.page import BACKGROUND, DIM, LIMIT, TEXT, page_sheet, seconds, svg_text
-from trocar.training.figures.stages import Stage, stages_of
+from trocar.training.figures.stages import Stretch, stages_of
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.tasks.moment import Moment
 from trocar.training.tasks.progress import Progress
@@ -35,7 +35,7 @@ class Spent:
         runs: one after the other: number of the kind, begin and end [s].
     """
 
-    stage: Stage
+    stage: Stretch
     runs: list[tuple[int, float, float]]
 
     def total(self, kind: int) -> float:
@@ -62,7 +62,7 @@ def spent(attempt: Attempt, progress: Progress) -> list[Spent]:
     return found
 
 
-def _kind(attempt: Attempt, progress: Progress, stage: Stage, tick: int) -> int:
+def _kind(attempt: Attempt, progress: Progress, stage: Stretch, tick: int) -> int:
     moment = Moment(float(attempt.times[tick]), attempt.records[tick])
     now = np.searchsorted(progress.ended, moment.time, side="left")  # the step of this tick, within the stage
     step = progress.task.steps[min(int(now), len(progress.task.steps) - 1)]
