@@ -1,6 +1,6 @@
 """Let the scripted expert and novice do every task with many seeds, and print their scores.
 
-Run: python bench/skills.py [--seeds 20] [--level 1] [--task NAME ...]. Exits 1 if the novice is ever as good as the expert.
+Run: python bench/skills.py [--seeds 20] [--level 1] [--task NAME]. Exits 1 if the novice is ever as good as the expert.
 """
 
 from __future__ import annotations
