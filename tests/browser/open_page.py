@@ -16,6 +16,13 @@ from playwright.sync_api import Browser, Page
 from browser.synthetic_trainer import SyntheticTrainer
 
 MODULES = Path(__file__).parents[2] / "client" / "node_modules"
+HEADSET = """  // a headset and two controllers for the emulator, iwer
+  window.xrDevice = new IWER.XRDevice(IWER.metaQuest3);
+  xrDevice.installRuntime({forceInstall: true});
+  xrDevice.position.set(0, 1.6, 0);
+  xrDevice.controllers.left.position.set(-0.15, 1.45, -0.3);
+  xrDevice.controllers.right.position.set(0.15, 1.45, -0.3);
+"""
 PATIENCE = 60.0  # for a page drawn by software on a busy machine; nothing here is about speed [s]
 
 

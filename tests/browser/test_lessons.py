@@ -9,19 +9,12 @@ import numpy as np
 import pytest
 
 from browser.by_hand import ByHand
-from browser.open_page import MODULES, axe_is_content
+from browser.open_page import HEADSET, MODULES, axe_is_content
 from live_process import training, watching
 from trocar.training.tasks.catalogue import TASKS, task
 
 PATIENCE = 120.0  # [s] for a page drawn by software on a busy machine; nothing here is about speed
 TRIES = 4
-HEADSET = """
-  window.xrDevice = new IWER.XRDevice(IWER.metaQuest3);
-  xrDevice.installRuntime({forceInstall: true});
-  xrDevice.position.set(0, 1.6, 0);
-  xrDevice.controllers.left.position.set(-0.15, 1.45, -0.3);
-  xrDevice.controllers.right.position.set(0.15, 1.45, -0.3);
-"""
 SQUEEZE = """(share) => {
   for (const each of [xrDevice.controllers.left, xrDevice.controllers.right]) each.updateButtonValue("trigger", share);
 }"""

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from browser.open_page import MODULES
+from browser.open_page import HEADSET, MODULES
 from live_process import training, watching
 from trocar.contact.instrument import default_instruments
 from trocar.web.source import RIGHT, Status, Touch
@@ -22,13 +22,6 @@ PAD = """
   const buttons = Array.from({length: 17}, () => ({value: 0, pressed: false, touched: false}));
   window.pad = {connected: true, mapping: "standard", id: "test", index: 0, axes: [0, 0, 0, 0], buttons};
   navigator.getGamepads = () => [window.pad];
-"""
-HEADSET = """
-  window.xrDevice = new IWER.XRDevice(IWER.metaQuest3);
-  xrDevice.installRuntime({forceInstall: true});
-  xrDevice.position.set(0, 1.6, 0);
-  xrDevice.controllers.left.position.set(-0.15, 1.45, -0.3);
-  xrDevice.controllers.right.position.set(0.15, 1.45, -0.3);
 """
 
 
