@@ -1,6 +1,6 @@
 """Fill records with attempts and print how large the file is and how long a list and a history take to read.
 
-Run: python bench/records.py [--attempts 1000] [--bytes 1500000] [--folder DIR]. The folder must be new; without one, a
+Run: python bench/records.py [--attempts 1000] [--bytes 1470000] [--folder DIR]. The folder must be new; without one, a
 temporary one is taken and removed. The bytes are random, so that nothing could have made them smaller.
 """
 
@@ -14,7 +14,10 @@ from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 
+from trocar.records.learning import IN_A_ROW
 from trocar.records.store import Records
+from trocar.training.figures.cusum import cusum
+from trocar.training.figures.learning_curve import learning_curve
 from trocar.training.metrics.measures import MEASURES
 from trocar.training.session import Card
 
@@ -29,7 +32,7 @@ def main() -> int:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--attempts", type=int, default=1000)
-    parser.add_argument("--bytes", type=int, default=1_500_000)
+    parser.add_argument("--bytes", type=int, default=1_470_000)
     parser.add_argument("--folder", type=Path)
     arguments = parser.parse_args()
     with TemporaryDirectory(prefix="trocar-records-") as temporary:
@@ -43,7 +46,20 @@ def main() -> int:
         print(
             f"history of one trainee: {1e3 * _seconds(folder, lambda one: one.history('Anna', 'lift')):.1f} ms"
         )
+        drawn = _seconds(folder, _history_as_the_page_asks)
+        print(
+            f"history of one trainee, attempts and both pictures, as the page opens it: {1e3 * drawn:.0f} ms"
+        )
     return 0
+
+
+def _history_as_the_page_asks(records: Records) -> None:
+    history = records.history("Anna", "lift")
+    records.attempts("Anna", "lift", 1)
+    cusum([not one for one in history.passed], history.cusum)
+    learning_curve(
+        [row.score or 0.0 for row in history.rows], history.passed, pass_score=75.0, in_a_row=IN_A_ROW
+    )
 
 
 def _fill(folder: Path, attempts: int, size: int) -> None:

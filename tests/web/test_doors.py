@@ -211,6 +211,22 @@ def test_the_policy_is_the_one_that_was_decided():
     )
 
 
+@pytest.mark.parametrize(
+    ("headers", "status"),
+    [
+        ({"Content-Length": "70000"}, 413),
+        ({"Content-Length": "99999999999999999999"}, 413),
+        ({"Transfer-Encoding": "chunked"}, 411),
+    ],
+)
+def test_a_large_body_or_one_without_a_length_is_not_read(visitor, headers, status):
+    """The answer comes before the body would: nothing of it is sent here."""
+    inside = {"Cookie": visitor.cookie, "Origin": visitor.origin}
+    assert visitor.request("POST", "/api/attempts", inside | headers)["status"] == status
+    without = {"Origin": visitor.origin} | headers
+    assert visitor.request("POST", "/api/attempts", without)["status"] == 401
+
+
 def test_two_hosts_in_one_request_are_refused(visitor):
     lines = f"GET /healthz HTTP/1.1\r\nHost: {visitor.host}\r\nHost: example.org\r\n\r\n"
     with socket.create_connection(("127.0.0.1", visitor.served.port), timeout=5) as plain:

@@ -9,6 +9,7 @@ import pytest
 
 from scripted_hands import Hands, first_step
 from trocar.records.store import Records
+from trocar.records.trouble import RecordsFullError
 from trocar.training.session import assess
 from trocar.training.strip import recorded
 from trocar.training.tasks import catalogue
@@ -180,6 +181,31 @@ def test_one_attempt_at_a_time_and_it_can_be_given_up(school):
     assert card["score"] == 0.0
     assert "ended at step 1" in card["advice"][0]
     assert visitor.ask(f"/api/attempts/{number}/end", {})[0] == 422
+
+
+def test_what_cannot_be_put_on_record_is_said_and_tried_until_it_can(school, monkeypatch):
+    visitor, trainer, lessons = school
+    full = threading.Event()
+    kept = lessons.records.finish
+
+    def finish(number, card):
+        if full.is_set():
+            raise RecordsFullError("the records: the disk is full")
+        kept(number, card)
+
+    monkeypatch.setattr(lessons.records, "finish", finish)
+    monkeypatch.setattr("trocar.web.lessons._TRIED_AGAIN", 0.1)
+    full.set()
+    with moved(trainer, first_step()):
+        number = begin(visitor)[1]["id"]
+        until(lambda: stands(visitor, number)["duration_s"] > 0.4, PATIENCE)
+        visitor.ask(f"/api/attempts/{number}/end", {})
+        until(lambda: trainer.guiding().reason == "the records: the disk is full", PATIENCE)
+        assert trainer.guiding().state == "marking"
+        assert stands(visitor, number)["status"] == "running"
+        full.clear()
+        until(lambda: stands(visitor, number)["status"] == "finished", PATIENCE)
+    assert stands(visitor, number)["card"]["score"] == 0.0
 
 
 def test_a_task_with_ports_of_its_own_changes_the_stage_and_the_page_is_greeted_again(school):

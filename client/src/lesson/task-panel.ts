@@ -78,7 +78,7 @@ export class TaskPanel {
     say(this.hint, hint);
     say(this.now, guiding.state === "running" || guiding.state === "marking" ? hint : "");
     const mistakes = guiding.mistakes === 1 ? "1 mistake" : `${guiding.mistakes} mistakes`;
-    const trouble = guiding.reason && !marking ? ` ${guiding.reason}` : "";
+    const trouble = guiding.reason && guiding.state !== "finished" ? ` ${guiding.reason}.` : "";
     say(this.wrong, (guiding.mistakes ? `${mistakes}: ${guiding.mistake}.` : "") + trouble);
   }
 

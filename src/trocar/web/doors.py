@@ -5,6 +5,7 @@
 | every request | exactly one Host, and one of ours (a foreign name that resolves here is DNS rebinding) | 400 |
 | every request but `/healthz` and the exchange | the cookie of an open session | 401 |
 | every request | Origin is our own; only GET, HEAD and OPTIONS may come without one, a WebSocket not | 403 |
+| every request with a body | its length is said, and at most 64 KiB | 411, 413 |
 | `GET /?token=...` | the token; the answer is a redirect that sets the cookie | 401 |
 
 SameSite alone would not do: another port of this machine is the same *site*, and a WebSocket asks nobody
@@ -37,6 +38,7 @@ RESPONSE_HEADERS = {
     "Cache-Control": "no-cache",  # kept, but asked for again each time: the session may have ended
 }
 _LOG = logging.getLogger(__name__)
+_LARGEST_BODY = 65536  # bytes
 _HARMLESS = {"GET", "HEAD", "OPTIONS"}  # what a browser may send without an Origin
 
 
@@ -98,7 +100,7 @@ class Doors:
         may_lack = scope["type"] == "http" and scope["method"] in _HARMLESS
         if origins != [self._own_origin(headers)] and not (may_lack and not origins):
             return HTTPStatus.FORBIDDEN, "This was asked from another page."
-        return None
+        return None if scope["type"] != "http" else _too_much(headers)
 
     def _is_ours(self, headers: Headers) -> bool:
         hosts = headers.getlist("host")
@@ -119,6 +121,16 @@ class Doors:
             "Location": "/",
             "Set-Cookie": f"{self._cookie}={self._sessions.open()}; Path=/; HttpOnly; SameSite=Strict{secure}",
         }
+
+
+def _too_much(headers: Headers) -> tuple[HTTPStatus, str] | None:
+    """Return why a body is not read, if it is not: nobody here asks for a large one."""
+    if "transfer-encoding" in headers:
+        return HTTPStatus.LENGTH_REQUIRED, "Say how long the body is."
+    length = headers.get("content-length", "0")
+    if not length.isdigit() or int(length) > _LARGEST_BODY:
+        return HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"A body of at most {_LARGEST_BODY} bytes is read."
+    return None
 
 
 def _token(scope: Scope) -> str | None:

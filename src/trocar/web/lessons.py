@@ -9,13 +9,15 @@ from __future__ import annotations
 import logging
 import threading
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from trocar.errors import InputError, TrocarError
 from trocar.records.store import Records
+from trocar.records.trouble import RecordsError
 from trocar.simulation import DT
 from trocar.training.live import MARKED, Ending, Guidance, LiveAttempt
-from trocar.training.session import assess
+from trocar.training.session import Card, assess
 from trocar.training.strip import header
 from trocar.training.tasks.catalogue import task as task_by_name
 from trocar.training.tasks.task import Task
@@ -25,6 +27,7 @@ from trocar.web.stage import stage_of
 from trocar.web.trainer import Trainer
 
 LOOK_EVERY = 0.04  # [s]
+_TRIED_AGAIN = 2.0  # [s] between tries to put an attempt on record
 _SERVO_BACK = 30.0  # [s] for a servo that died and is being started again
 _TOLD_EVERY = 0.1  # [s] of what changes steadily
 _SHOWN_AFTERWARDS = 5.0  # [s] that the end of an attempt is told to pages that come
@@ -138,15 +141,21 @@ class Lessons:
             live.give_up()  # the last of it is kept; it is not marked, for nobody wanted it to end
         if guidance.ending in MARKED:
             tell("marking")
-        state, reason = self._close(number, live, guidance)
+        state, reason = self._close(number, live, guidance, tell)
         closed.set()
         tell(state, reason)
         self._closing.wait(_SHOWN_AFTERWARDS)
         if self._lesson is not None and self._lesson.number == number:
             self._trainer.guide(None)
 
-    def _close(self, number: int, live: LiveAttempt, guidance: Guidance) -> tuple[State, str]:
-        """Mark an attempt that is over, or say why it cannot be; return how it stands and why."""
+    def _close(
+        self, number: int, live: LiveAttempt, guidance: Guidance, tell: Callable[[State, str], None]
+    ) -> tuple[State, str]:
+        """Mark an attempt that is over, or say why it cannot be; return how it stands and why.
+
+        What cannot be put on record, as on a full disk, is said and tried again until it can: nothing is lost while
+        the trainer runs.
+        """
         reason, card = str(guidance.ending) or "the trainer stopped", None
         if guidance.ending in MARKED:
             try:
@@ -156,15 +165,26 @@ class Lessons:
             except Exception:  # noqa: BLE001 - a fault of ours must not leave the page waiting
                 _LOG.exception("attempt %d could not be marked", number)
                 reason = "it could not be marked"
+        while (trouble := self._kept(number, live, card, reason)) is not None:
+            tell("marking", trouble)
+            if self._closing.wait(_TRIED_AGAIN):
+                _LOG.warning("attempt %d: %s", number, trouble)
+                return "interrupted", trouble
+        return ("interrupted" if card is None else "finished"), reason
+
+    def _kept(self, number: int, live: LiveAttempt, card: Card | None, reason: str) -> str | None:
+        """Put the end of an attempt on record; return what hinders it, if anything does."""
+        trouble = live.look().trouble  # the last of the strip first
+        if trouble:
+            return trouble
         try:
             if card is not None:
                 self.records.finish(number, card)
-                return "finished", reason
-            self.records.interrupt(number, reason)
-        except TrocarError as error:
-            _LOG.warning("attempt %d: %s", number, error)
-            reason = str(error)
-        return "interrupted", reason
+            else:
+                self.records.interrupt(number, reason)
+        except RecordsError as error:
+            return str(error)
+        return None
 
 
 def _differ(one: Guidance, other: Guidance) -> bool:
