@@ -30,7 +30,8 @@ study: .venv/ready .venv/compiled  ## set up, then run the validation study into
 .PHONY: test
 test: .venv/ready .venv/compiled  ## set up, then run every test, the client's too (WORKERS=2)
 	@.venv/bin/python hatch_build.py check
-	.venv/bin/python -m pytest -q -n $(WORKERS)
+	.venv/bin/python -m pytest -q -m alone
+	.venv/bin/python -m pytest -q -n $(WORKERS) -m "not alone"
 
 .PHONY: lint
 lint: .venv/ready  ## style, format, types and the layers of imports

@@ -62,7 +62,7 @@ def test_the_keyboard_alone_moves_both_instruments_presses_and_leaves(browser):
         hold(opened, "q", lambda: trainer.tip(LEFT)[2] < -STEP, "in, until the tip presses")
         meter = page.get_by_role("meter", name="Force, left, grasper")
         opened.until(lambda: float(meter.get_attribute("aria-valuenow")) > 0.05, "the bar shows the force")
-        assert re.search(r"\d\.\d\d N", page.inner_text("#bars .bar:first-child"))
+        assert re.search(r"\d\.\d\d\d N", page.inner_text("#bars .bar:first-child"))
         page.keyboard.press("Escape")
         page.keyboard.press("Tab")
         assert (
