@@ -9,14 +9,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from trocar.model import FloatArray
 from trocar.records.rows import AttemptRow, stamp
 from trocar.training.practice import Cusum, proficient
 
 IN_A_ROW = 2  # passes one after the other that make a trainee proficient, as FLS asks for
-_ROUNDING = 1e-9  # at the usual rates two failures reach the alarm exactly: ln 9 = 2 ln 3
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six")
 
 
@@ -51,14 +48,12 @@ class History:
     @property
     def alarm_after(self) -> int | None:
         """How many attempts it took until the chart had risen by the alarm's height above its lowest point."""
-        heights = np.concatenate(([0.0], self.chart))
-        return _first(heights - np.minimum.accumulate(heights), self.cusum.alarm)
+        return self.cusum.alarm_after([not one for one in self.passed])
 
     @property
     def proof_after(self) -> int | None:
         """How many attempts it took until the chart had fallen by the proof's height below its highest point."""
-        heights = np.concatenate(([0.0], self.chart))
-        return _first(np.maximum.accumulate(heights) - heights, self.cusum.proof)
+        return self.cusum.proof_after([not one for one in self.passed])
 
     @property
     def proficient_after(self) -> int | None:
@@ -104,9 +99,3 @@ class History:
             "proficient_after": self.proficient_after,
             "remains": self.remains,
         }
-
-
-def _first(distances: FloatArray, limit: float) -> int | None:
-    """Return where a distance first reaches a limit, or None; the first of them is before any attempt."""
-    reached = np.flatnonzero(distances >= limit - _ROUNDING)
-    return int(reached[0]) if len(reached) else None

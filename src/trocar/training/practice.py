@@ -23,6 +23,8 @@ import numpy as np
 from trocar.errors import InputError
 from trocar.model import FloatArray
 
+_ROUNDING = 1e-9  # two failures are an alarm by the numbers, 2 ln 3 = ln 9, and must be one by their sum
+
 
 @dataclass(frozen=True, kw_only=True)
 class Cusum:
@@ -78,6 +80,16 @@ class Cusum:
         """Return the chart after each attempt, from zero, shape (n,)."""
         return np.cumsum(np.where(np.asarray(failed, dtype=bool), 1 - self.step, -self.step))
 
+    def alarm_after(self, failed: Sequence[bool]) -> int | None:
+        """Return how many attempts it took until the chart had risen by h1 above its lowest point, or None."""
+        heights = np.concatenate(([0.0], self.chart(failed)))
+        return _first(heights - np.minimum.accumulate(heights), self.alarm)
+
+    def proof_after(self, failed: Sequence[bool]) -> int | None:
+        """Return how many attempts it took until the chart had fallen by h0 below its highest point, or None."""
+        heights = np.concatenate(([0.0], self.chart(failed)))
+        return _first(np.maximum.accumulate(heights) - heights, self.proof)
+
     def page_chart(self, failed: Sequence[bool]) -> FloatArray:
         """Return Page's chart after each attempt, in units of the log likelihood ratio, shape (n,)."""
         heights = np.zeros(len(failed))
@@ -86,6 +98,12 @@ class Cusum:
             height = max(0.0, height + (self.failure if one else -self.success))
             heights[number] = height
         return heights
+
+
+def _first(distances: FloatArray, limit: float) -> int | None:
+    """Return where a distance first reaches a limit, or None; the first of them is before any attempt."""
+    reached = np.flatnonzero(distances >= limit - _ROUNDING)
+    return int(reached[0]) if len(reached) else None
 
 
 def proficient(passed: Sequence[bool], *, in_a_row: int = 2, besides: int = 0) -> int | None:

@@ -15,7 +15,6 @@ from trocar.training.practice import Cusum
 
 _HEIGHT = 3.6  # [in]
 _NEAR_LEFT = 0.25  # of the width: room for words
-_ROUNDING = 1e-9  # two failures in a row reach the usual alarm exactly: 2 ln 3 = ln 9
 
 
 def cusum(failed: Sequence[bool], chart: Cusum | None = None) -> str:
@@ -31,10 +30,7 @@ def cusum(failed: Sequence[bool], chart: Cusum | None = None) -> str:
     numbers = np.arange(count + 1)
     alarm = np.minimum.accumulate(heights) + rates.alarm
     proof = np.maximum.accumulate(heights) - rates.proof
-    alarmed, proved = (
-        _first(heights[1:] - alarm[:-1] >= -_ROUNDING),
-        _first(proof[:-1] - heights[1:] >= -_ROUNDING),
-    )
+    alarmed, proved = rates.alarm_after(failed), rates.proof_after(failed)
     wrong = np.concatenate([[False], np.asarray(failed, dtype=bool)])
     size = 6.0 if count <= 40 else 4.0
     with page_sheet(_HEIGHT) as figure:
@@ -132,12 +128,6 @@ def _ring(axes: Axes, number: int, height: float, words: str, colour: str, *, ri
         path_effects=HALO,
         zorder=5,
     )
-
-
-def _first(crossed: FloatArray | np.ndarray) -> int | None:
-    """Return the number of the first attempt, from 1, that crossed a limit."""
-    where = np.flatnonzero(crossed)
-    return int(where[0]) + 1 if len(where) else None
 
 
 def _description(
