@@ -20,11 +20,12 @@ from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import CubicSpline, InterpolatedUnivariateSpline
-from scipy.signal import butter, sosfilt, sosfilt_zi
+from scipy.signal import butter, freqz, sosfilt, sosfilt_zi
 
 RELATIVE = 1e-6
 RATE, CUTOFF, PADDING = 100.0, 6.0, 0.5  # [Hz], [Hz], [s]
 USED, MOVING, MOVEMENT, TOUCHING = 5e-3, 5e-3, 0.4, 1e-3  # [m], [m/s], [s], [N]
+QUIET, STRIDE, TURN = (20.0, 45.0), 1e-4, 1e-3  # [Hz], [m], [rad]
 AGAIN = 0.5  # [s]
 TOO_MUCH = "used too much force"
 
@@ -39,9 +40,9 @@ def read_table(path):
     return {hand: dict(zip(names, np.array(rows).T, strict=True)) for hand, rows in found.items()}
 
 
-def both_ways(values, rate):
+def both_ways(values, rate, band=CUTOFF):
     """Filter forwards and backwards, from a steady state, the motion continued by its point reflection at both ends."""
-    sections = butter(4, CUTOFF, fs=rate, output="sos")
+    sections = butter(4, band, "lowpass" if band is CUTOFF else "bandpass", fs=rate, output="sos")
     steady = sosfilt_zi(sections)
     count = min(len(values) - 1, round(PADDING * rate))
     longer = np.concatenate(
@@ -50,6 +51,22 @@ def both_ways(values, rate):
     for _ in range(2):
         longer = sosfilt(sections, longer, zi=steady * longer[0])[0][::-1]
     return longer[count : count + len(values)]
+
+
+def white(rate, band, derivative):
+    """Return the mean square of a derivative of white noise of one-sided density 1, filtered both ways."""
+    kind = "lowpass" if band is CUTOFF else "bandpass"
+    at, response = freqz(*butter(4, band, kind, fs=rate), worN=100_001, fs=rate, include_nyquist=True)
+    return trapezium((2 * np.pi * at) ** (2 * derivative) * np.abs(response) ** 4, at)
+
+
+def walked(places, stride):
+    """Return the places that are a stride or more from the one before them that was returned, and the last."""
+    found = [places[0]]
+    for place in places[1:]:
+        if sqrt(sum((place - found[-1]) ** 2)) >= stride:
+            found.append(place)
+    return [*found, places[-1]]
 
 
 class Motion:
@@ -63,10 +80,10 @@ class Motion:
         even = np.linspace(at[0], at[-1], max(round(seconds * rate), 8) + 1)
         self.times = np.linspace(at[0], at[-1], max(round(seconds * RATE), 8) + 1)
         rate = (len(even) - 1) / (even[-1] - even[0])
-        self.columns = [
-            CubicSpline(even, both_ways(np.interp(even, at, hand[name][here]), rate))(self.times)
-            for name in names
-        ]
+        read = [np.interp(even, at, hand[name][here]) for name in names]
+        self.columns = [CubicSpline(even, both_ways(column, rate))(self.times) for column in read]
+        floor = sum(float((both_ways(column, rate, QUIET) ** 2).mean()) for column in read)
+        self.noise = seconds * floor / white(rate, QUIET, 0) * white(rate, CUTOFF, 3)
         self.splines = [InterpolatedUnivariateSpline(self.times, column, k=5) for column in self.columns]
 
     @property
@@ -74,19 +91,19 @@ class Motion:
         """From the first sample to the last [s]."""
         return self.times[-1] - self.times[0]
 
-    def length(self):
-        """Return the sum of the distances between samples."""
-        return sum(sqrt(sum(step**2)) for step in np.diff(np.array(self.columns), axis=1).T)
+    def length(self, stride=STRIDE):
+        """Return the sum of the distances between samples a stride apart."""
+        return sum(sqrt(sum((b - a) ** 2)) for a, b in pairwise(walked(np.array(self.columns).T, stride)))
 
     def speed(self):
         """Return the speed at every sample."""
         return np.sqrt(sum(spline.derivative()(self.times) ** 2 for spline in self.splines))
 
     def jerk_squared(self):
-        """Return the time integral of the squared jerk, five trapezia to a sample."""
+        """Return the time integral of the squared jerk, five trapezia to a sample, less what noise adds."""
         fine = np.linspace(self.times[0], self.times[-1], 5 * (len(self.times) - 1) + 1)
         values = sum(spline.derivative(3)(fine) ** 2 for spline in self.splines)
-        return float(((values[1:] + values[:-1]) / 2 * np.diff(fine)).sum())
+        return max(0.0, trapezium(values, fine) - self.noise)
 
 
 def arc_length(speed):
@@ -115,7 +132,7 @@ def median_arc_length(speed):
 def angle_sum(directions):
     """Return the sum of the angles between successive directions, not quite of length one after the filter."""
     total = 0.0
-    for a, b in pairwise(directions):
+    for a, b in pairwise(walked(directions, TURN)):
         total += float(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b))
     return total
 
@@ -203,7 +220,7 @@ def recompute(table, constants):
         "time": times[-1] - times[0],
         "path_length": path,
         "angular_path": sum(angle_sum(np.array(shaft.columns).T) for shaft in shafts)
-        + sum(roll.length() for roll in rolls),
+        + sum(roll.length(TURN) for roll in rolls),
         "economy_of_motion": constants["ideal_length_m"] / path
         if constants["completed"] and path > 0
         else nan,

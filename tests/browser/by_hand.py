@@ -69,7 +69,9 @@ class ByHand:
                 self.move(hand, [*(place if tip[2] > 0.6 * up else tip[:2]), up], seen=tip)
             case "Keep touching it.":
                 self.press(hand, tip[:2], tip, force, wanted)
-            case "A little harder." | "Touch the line." | "Press lightly, jaw open." | "Softer.":
+            case "Down, until it touches." | "Touch the line." | "Press lightly, jaw open.":
+                self.press(hand, place, tip, force, wanted)
+            case "A little harder." | "Softer.":
                 self.press(hand, place, tip, force, wanted)
             case "On along the line." if force < 0.7 * wanted:
                 self.press(hand, tip[:2], tip, force, wanted)

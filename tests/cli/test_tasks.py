@@ -64,7 +64,7 @@ def test_an_attempt_that_is_replayed_has_the_same_card(capsys, tmp_path):
     again = json.loads(capsys.readouterr().out)
     assert again == {key: value for key, value in card.items() if key not in {"skill", "seed"}}
     assert main(["replay", str(out), "--task", "palpate"]) == 0
-    assert "The attempt ended at step " in " ".join(capsys.readouterr().out.split())
+    assert "Go on to the end" in " ".join(capsys.readouterr().out.split())
 
 
 def test_what_cannot_be_replayed_is_refused(capsys, tmp_path):
@@ -77,7 +77,8 @@ def test_what_cannot_be_replayed_is_refused(capsys, tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--headless"], "--headless needs --device simulated"),
+        (["--headless"], "--headless needs --task"),
+        (["--headless", "--device", "recorded", "--task", "lift"], "--device simulated alone, not recorded"),
         (["--headless", "--device", "simulated"], "--headless needs --task"),
         (["--headless", "--device", "simulated", "--task", "palp"], "did you mean palpate"),
         (["--headless", "--device", "simulated", "--task", "lift", "--skill", "good"], "expert or novice"),

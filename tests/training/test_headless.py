@@ -58,7 +58,7 @@ def test_half_an_attempt_scores_nothing_and_says_where_it_ended():
     half = assess(done.task, Recording(poses=done.recording.poses[: len(done.recording.poses) // 2]))
     assert half.score == 0.0
     assert not half.passed
-    assert half.advice[0].startswith("The attempt ended at step ")
+    assert half.advice[0].startswith("Go on to the end, or there are no points. What was left: ")
 
 
 @pytest.mark.parametrize(

@@ -55,16 +55,16 @@ def test_the_card_follows_from_the_table_alone(written):
 
 @pytest.mark.parametrize("written", ["palpate"], indirect=True)
 @pytest.mark.parametrize(
-    ("column", "metrics"),
+    ("column", "more", "metrics"),
     [
-        ("tip_x_m", ("path_length", "work_on_tissue")),
-        ("force_z_n", ("peak_force", "impulse", "peak_stress_ratio", "work_on_tissue")),
-        ("roll_rad", ("angular_path",)),
-        ("outside_m", ("depth_perception",)),
-        ("mistakes", ("errors", "score")),
+        ("tip_x_m", 1e-3, ("path_length", "work_on_tissue")),
+        ("force_z_n", 1e-3, ("peak_force", "impulse", "peak_stress_ratio", "work_on_tissue")),
+        ("roll_rad", 1.0, ("angular_path",)),  # in one tick; the filter leaves a hundredth of it
+        ("outside_m", 0.1, ("depth_perception",)),
+        ("mistakes", 1.0, ("errors", "score")),
     ],
 )
-def test_a_changed_value_is_noticed(written, tmp_path, column, metrics):
+def test_a_changed_value_is_noticed(written, tmp_path, column, more, metrics):
     _, folder = written
     lines = (folder / "attempt.csv").read_text().splitlines()
     at = COLUMNS.index(column)
@@ -72,7 +72,7 @@ def test_a_changed_value_is_noticed(written, tmp_path, column, metrics):
         len(lines) - 2 if column == "mistakes" else _hardest(lines)
     )  # the last left one, or of the hardest press
     cells = lines[number].split(",")
-    cells[at] = repr(float(cells[at]) * 1.5 + 1e-3)
+    cells[at] = repr(float(cells[at]) * 1.5 + more)
     lines[number] = ",".join(cells)
     (tmp_path / "attempt.csv").write_text("\n".join(lines) + "\n")
     (tmp_path / "attempt.task.json").write_text((folder / "attempt.task.json").read_text())

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from trocar.web.serve import Served
 
 _PORT = 0
+_PAGE = "web"
 
 
 def register(app: typer.Typer) -> None:
@@ -27,7 +28,7 @@ def train(
     model: Annotated[str, typer.Option(help="What moves: wave-membrane or wave-solid.")] = "wave-membrane",
     device: Annotated[
         str, typer.Option(help="What moves the instruments: web (the page), simulated, recorded.")
-    ] = "web",
+    ] = _PAGE,
     script: Annotated[
         str | None, typer.Option(help="What the simulated hands do.", show_default="press-slide-lift")
     ] = None,
@@ -79,8 +80,8 @@ def train(
             raise typer.BadParameter(
                 f"--{option} does not go with --headless: the task says what it is done on"
             )
-        if device != "simulated":
-            raise typer.BadParameter("--headless needs --device simulated: nobody else is there")
+        if device not in (_PAGE, "simulated"):
+            raise typer.BadParameter(f"--headless goes with --device simulated alone, not {device}")
         if task is None:
             raise typer.BadParameter("--headless needs --task; trocar tasks lists them")
         options = {"level": level, "skill": skill, "seed": seed}
@@ -106,11 +107,12 @@ def train(
     hands = _device(device, ports, script=script, seed=seed, recording=recording)
     check_address(listen, cert, key)
     log = Console(stderr=True, highlight=False)
-    records = Records.open()
-    if records.note:
-        log.print(records.note)
     with log.status("laying the tissue and its waves out ...") as status:
-        trainer = Trainer(set_stage(tissue, ports=ports, model=model), device=hands, lessons=True)
+        stage = set_stage(tissue, ports=ports, model=model)
+        records = Records.open()
+        if records.note:
+            log.print(records.note)
+        trainer = Trainer(stage, device=hands, lessons=True)
         try:
             status.update("starting the servo; the first time its code is compiled, a minute or so ...")
             trainer.open()
@@ -142,7 +144,7 @@ def _device(name: str, ports: str, **given: Any) -> Device | None:
 
     options = {option: value for option, value in given.items() if value is not None}
     entry(name)
-    if name == "web":
+    if name == _PAGE:
         for option in options:
             raise typer.BadParameter(f"--{option} is for devices other than web")
         return None

@@ -107,8 +107,10 @@ def read_ports(path: Path, size: tuple[float, float]) -> tuple[Instrument, Instr
     """
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(str(path), "a readable file", str(error)) from error
+    except OSError as error:
+        raise InputError("ports", "a file that can be read", str(path), error.strerror or "") from error
+    except UnicodeDecodeError as error:
+        raise InputError(str(path), "text in UTF-8", str(error)) from error
     except (tomllib.TOMLDecodeError, ValueError, RecursionError) as error:
         raise InputError(str(path), "TOML", str(error)) from error
     for key in tables:

@@ -102,5 +102,5 @@ def device(name: str, **options: Any) -> Device:
             raise InputError(f"{name} device: {option}", "no such option", value, "leave it out")
     for option, parameter in taken.items():
         if parameter.default is parameter.empty and option not in options:
-            raise InputError(f"{name} device: {option}", "a value", None, f"give it as {option}")
+            raise InputError(f"{name} device", f"the option --{option}", None)
     return make(**options)

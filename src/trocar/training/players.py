@@ -2,14 +2,16 @@
 
 A player sees what a trainee sees: the step that is on, where its own tips are and how hard they press. Each hand goes
 to its mark on minimum-jerk ways (Flash and Hogan 1985, J Neurosci 5:1688) above the tissue, comes down, and presses by
-correcting its depth. The novice is slower, stops to think, misses at first, wavers on the way, presses with a force of
-its own choosing before it corrects it, and trembles more. Nothing in tasks or scores knows a player.
+correcting its depth. The novice is slower, stops to think, misses at first, wavers on the way, presses with a force and
+raises to a height of its own choosing before it corrects them, and trembles more. Nothing in tasks or scores knows a
+player.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from math import inf, isinf, isnan, nan
 from typing import Protocol
 
 import numpy as np
@@ -27,7 +29,7 @@ _ABOVE = 4e-3  # [m] over the tissue, where a hand goes from mark to mark
 _GAIN = 0.1  # [m/(N s)] by which a hand corrects its depth: on skin it is there in a tenth of a second
 _CLOSE = 0.25  # [s] for a jaw
 _LIGHTEST = 0.4  # of the force that is right, that anybody presses with at first
-_RAISING = 5e-4  # [m/s] with tissue in the jaw
+_RAISING = 0.125  # of the speed it comes down with, with tissue in the jaw
 _LEARNING = 3e-3  # [1/tick] of an error that is seen is taken away
 
 
@@ -59,8 +61,8 @@ class Habits:
         pause: before each way, on average [s].
         miss: of the first aim at a mark, in each direction [m].
         waver: of a way to either side [m].
-        force_error: of the force first pressed with, relative.
-        patience: until an aim or a force is corrected [s].
+        force_error: of the force first pressed with and the height first raised to, relative.
+        patience: until an aim, a force or a height is corrected [s].
         tremor: of the handle, root mean square [m].
     """
 
@@ -192,6 +194,7 @@ class _Hand:
         self._aim: object = None
         self._miss = np.zeros(2)
         self._force_share = 1.0
+        self._height_share = nan  # of the height that is right, once it raises
         self._since = 0.0
         self._way: _Way | None = None
         self._missed = False  # the jaw closed on nothing
@@ -218,12 +221,16 @@ class _Hand:
         habits = self._habits
         self._aim, self._since = wish.aim, time
         self._miss = habits.miss * self._rng.uniform(-1, 1, 2)
-        self._force_share = max(_LIGHTEST, 1 + habits.force_error * self._rng.uniform(-1, 1))
+        self._force_share, self._height_share = self._share(), nan
         pause = habits.pause * self._rng.uniform(0.5, 1.5)
         target = np.array([*(np.array(wish.place) + self._miss), _ABOVE])
         self._way = _Way(
             self._tip, target, time + pause, habits.speed, habits.waver * self._rng.uniform(-1, 1, 2)
         )
+
+    def _share(self) -> float:
+        """Return the share of the force or height that is right, which this hand tries at first."""
+        return max(_LIGHTEST, 1 + self._habits.force_error * self._rng.uniform(-1, 1))
 
     def _do(self, moment: Moment, wish: _Wish) -> None:
         if self._way is not None:
@@ -236,6 +243,7 @@ class _Hand:
         if patient > self._habits.patience:
             self._miss *= 1 - _LEARNING  # it sees where the mark is, and how hard it presses
             self._force_share = 1 + (1 - _LEARNING) * (self._force_share - 1)
+            self._height_share = 1 + (1 - _LEARNING) * (self._height_share - 1)
         if wish.height is not None and (moment.holds(self.number) or self._jaw < 1.0):
             self._raise(moment, wish.height)
             return
@@ -261,8 +269,13 @@ class _Hand:
         if not moment.holds(self.number):
             self._missed = True
             return
-        low = height * self._force_share - self._tip[2]
-        self._tip[2] += float(np.clip(low, -_RAISING * self._dt, _RAISING * self._dt))
+        if isnan(self._height_share):
+            self._height_share, self._since = self._share(), inf  # it looks when it is up
+        low = height * self._height_share - self._tip[2]
+        fastest = _RAISING * self._habits.lowering
+        self._tip[2] += self._dt * float(np.clip(low / self._dt, -fastest, fastest))
+        if isinf(self._since) and abs(low) <= fastest * self._dt:
+            self._since = moment.time
 
     def _leave(self, moment: Moment) -> None:
         self._way = None

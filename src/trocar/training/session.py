@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from math import isfinite, nan
+from math import inf, isfinite, nan
 
 import numpy as np
 
@@ -237,10 +237,12 @@ def _weakest(layers: Tissue) -> float:
 def _advice(task: Task, progress: Progress, metrics: Mapping[str, float]) -> list[str]:
     """Say what cost most first."""
     marking = task.marking
-    if not progress.done:
-        at = f"step {progress.number + 1} of {len(task.steps)}"
-        return [f"The attempt ended at {at}: {task.steps[progress.number].words}"]
-    costs = [(metrics["time"] - marking.expert_time, _SLOW)]
+    costs = []
+    if progress.done:
+        costs.append((metrics["time"] - marking.expert_time, _SLOW))
+    else:
+        left = f"Go on to the end, or there are no points. What was left: {task.steps[progress.number].words}"
+        costs.append((inf, left))
     for words in sorted({one.words for one in progress.mistakes}):
         times = sum(one.words == words for one in progress.mistakes)
         over = marking.per_second_over_limit * metrics["time_over_limit"] if words == TOO_MUCH else 0.0

@@ -282,7 +282,8 @@ def _bound(host: str, port: int, *, secure: bool) -> socket.socket:
     try:
         family, kind, protocol, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
     except (OSError, ValueError, OverflowError) as error:
-        raise InputError("host", "an address or name of this machine", host, str(error)) from error
+        advice = (error.strerror if isinstance(error, OSError) else None) or str(error)
+        raise InputError("host", "an address or name of this machine", host, advice) from error
     found = ip_address(str(address[0]).partition("%")[0])
     if found.is_unspecified:
         advice = "name one, so that requests made out to any other can be refused"

@@ -142,7 +142,7 @@ def test_a_hand_that_no_step_asks_for_and_that_touches_nothing_has_no_panel():
 
 def test_paths_say_how_far_each_tip_went():
     attempt, progress = pressed()
-    far = {name: 1e3 * tip.length for name, tip in attempt.tips.items()}
+    far = {name: 1e3 * tip.length() for name, tip in attempt.tips.items()}
     words = described(paths(attempt, progress))[1]
     assert (
         words

@@ -20,6 +20,7 @@ from trocar.simulation import (
 )
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.metrics.measures import MEASURES, measured
+from trocar.training.metrics.motion import smooth_path
 
 SECONDS, TURN, RADIUS = 20.0, 1.0, 0.015  # a tip goes round twenty times; a jerk of 3.7 m/s^3, as hands have
 NOISE = 20e-6  # [m]
@@ -89,6 +90,25 @@ def test_rate_and_noise_change_no_metric_by_more_than_two_per_cent(rate):
     del clean["work_on_tissue"]
     for name, value in clean.items():
         assert noisy[name] == pytest.approx(value, rel=0.02, abs=1e-9, nan_ok=True), name
+
+
+def test_a_tip_that_rests_goes_nowhere_however_noisy_its_sensor():
+    times, records = circling(hands=(0,), seed=3)
+    still = times >= SECONDS / 2
+    noise = np.random.default_rng(4).normal(0.0, NOISE, (still.sum(), 3))
+    records[still, 0, TIP : TIP + 3] = noise + np.array([RADIUS, 0.0, 0.0])
+    moved = measured(attempt(hands=(0,)))["path_length"] / 2
+    assert measured(Attempt(times=times, records=records))["path_length"] == pytest.approx(moved, rel=0.02)
+
+
+def test_the_jerk_of_noise_alone_is_taken_off():
+    rng, times = np.random.default_rng(5), np.arange(0.0, 60.0, 1 / 250)
+    noise = rng.normal(0.0, NOISE, (len(times), 3))
+    slow = np.stack([0.01 * np.sin(0.5 * times), 0.0 * times, 0.0 * times], axis=1)
+    clean, noisy = smooth_path(times, slow), smooth_path(times, slow + noise)
+    there = noisy.jerk() + noisy.noise_jerk  # as it was before
+    assert there > 50 * clean.jerk()
+    assert noisy.jerk() < 0.15 * there
 
 
 def test_an_instrument_that_is_not_there_does_not_count():

@@ -80,7 +80,7 @@ def test_a_gap_is_bridged():
     kept = np.ones(len(times), dtype=bool)
     kept[700:720] = False  # twenty ticks were missed
     whole, gapped = smooth_path(times, places), smooth_path(times[kept], places[kept])
-    assert gapped.length == pytest.approx(whole.length, rel=1e-3)
+    assert gapped.length() == pytest.approx(whole.length(), rel=1e-3)
     assert integrated_jerk(gapped) == pytest.approx(integrated_jerk(whole), rel=0.01)
 
 

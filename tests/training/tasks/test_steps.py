@@ -76,7 +76,8 @@ def test_a_lapse_shorter_than_a_tremor_breaks_nothing():
     ("given", "hint"),
     [
         ({"right": (0.05, 0.03, 0.0)}, "Go to the mark."),
-        ({"right": (0.03, 0.03, 0.0)}, "A little harder."),
+        ({"right": (0.03, 0.03, 0.0)}, "Down, until it touches."),
+        ({"right": (0.03, 0.03, 0.0), "forces": (0.0, 0.01)}, "A little harder."),
         ({"right": (0.03, 0.03, 0.0), "forces": (0.0, 0.065)}, "Softer."),
     ],
 )
@@ -124,7 +125,7 @@ def test_both_hands_are_needed_together():
     found = played(task, (0.01, {}), (2.0, alone))
     assert not found.done
     assert [one.words for one in found.mistakes] == ["worked on tissue that was not held down"]
-    assert found.now == "Left: A little harder."
+    assert found.now == "Left: Down, until it touches."
 
 
 def test_tissue_is_lifted_by_a_jaw_that_holds_it():

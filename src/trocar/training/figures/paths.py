@@ -252,7 +252,7 @@ def _entries(attempt: Attempt, expert: tuple[Attempt, Progress] | None) -> list[
 
 
 def _far(attempt: Attempt, name: str) -> float | None:
-    return attempt.tips[name].length / MILLIMETRE if name in attempt.tips else None
+    return attempt.tips[name].length() / MILLIMETRE if name in attempt.tips else None
 
 
 def _description(attempt: Attempt, expert: tuple[Attempt, Progress] | None) -> str:

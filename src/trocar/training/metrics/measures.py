@@ -21,13 +21,15 @@ from trocar.training.metrics.forces import (
     time_over_limit,
     work_on_tissue,
 )
-from trocar.training.metrics.motion import RATE, SmoothPath
+from trocar.training.metrics.motion import RATE, STRIDE, SmoothPath, strides
 from trocar.training.metrics.smoothness import (
     MOVING,
     integrated_jerk,
     log_dimensionless_jerk,
     sparc_of_movements,
 )
+
+_TURN = 10 * STRIDE  # [rad]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,17 +60,18 @@ def measured(attempt: Attempt) -> dict[str, float]:
 
 def path_length(attempt: Attempt) -> float:
     """Return how far the tips went [m]."""
-    return sum(tip.length for tip in attempt.tips.values())
+    return sum(tip.length() for tip in attempt.tips.values())
 
 
 def angular_path(attempt: Attempt) -> float:
     """Return how far the shafts turned about their ports and about themselves [rad]."""
     swung = sum(_turned(shaft.places) for shaft in attempt.of_used(SHAFT).values())
-    return swung + sum(roll.length for roll in attempt.of_used(ROLL).values())
+    return swung + sum(roll.length(_TURN) for roll in attempt.of_used(ROLL).values())
 
 
 def _turned(directions: FloatArray) -> float:
-    ones, others = directions[:-1], directions[1:]
+    kept = directions[strides(directions, _TURN)]
+    ones, others = kept[:-1], kept[1:]
     across = np.linalg.norm(np.cross(ones, others), axis=1)
     return float(np.arctan2(across, (ones * others).sum(axis=1)).sum())
 
@@ -81,7 +84,7 @@ def economy_of_motion(attempt: Attempt) -> float:
 
 def depth_perception(attempt: Attempt) -> float:
     """Return how far the shafts slid through their ports, in and out [m]."""
-    return sum(shaft.length for shaft in attempt.of_used(WITHDRAWN).values())
+    return sum(shaft.length() for shaft in attempt.of_used(WITHDRAWN).values())
 
 
 def _worst(
@@ -143,7 +146,7 @@ MEASURES = (
     Measure(
         name="path_length",
         unit="m",
-        formula="sum of |r(i+1) - r(i)| over both tips",
+        formula="sum of |r(i+1) - r(i)| over both tips, in strides of 0.1 mm",
         source="EndoViS code and others",
         cannot_tell="skill: it does not separate experts from novices in JIGSAWS (AUC 0.64)",
         of=path_length,
@@ -151,7 +154,7 @@ MEASURES = (
     Measure(
         name="angular_path",
         unit="rad",
-        formula="sum of the angles between successive shaft directions, and of |roll(i+1) - roll(i)|",
+        formula="sum of the angles between shaft directions, and of |roll(i+1) - roll(i)|, in strides of 1 mrad",
         source="PMC5845064, table 2, which adds up roll, elevation and azimuth",
         cannot_tell="more than path length, where the task needs no roll",
         of=angular_path,
@@ -167,7 +170,7 @@ MEASURES = (
     Measure(
         name="depth_perception",
         unit="m",
-        formula="sum of |s(i+1) - s(i)|, s the shaft's length outside the port",
+        formula="sum of |s(i+1) - s(i)|, s the shaft's length outside the port, in strides of 0.1 mm",
         source="as of TrEndo; the EndoViS code means another thing by this name",
         cannot_tell="whether depth was seen: it is a path length along the shaft",
         of=depth_perception,
@@ -175,7 +178,7 @@ MEASURES = (
     Measure(
         name="integrated_jerk",
         unit="1",
-        formula="sqrt(T^5/(2 L^2) int |j|^2 dt), the larger of both tips",
+        formula="sqrt(T^5/(2 L^2) int |j|^2 dt), the jerk less noise's, L the path length; the larger of both tips",
         source="EndoViS code, with the dt that it leaves out",
         cannot_tell="anything that time did not: they are correlated by 0.93",
         of=lambda attempt: _worst(attempt, integrated_jerk, max),
@@ -183,7 +186,7 @@ MEASURES = (
     Measure(
         name="log_dimensionless_jerk",
         unit="1",
-        formula="-ln(T^3/v_max^2 int |j|^2 dt), the lesser of both tips",
+        formula="-ln(T^3/v_max^2 int |j|^2 dt), the jerk less noise's; the lesser of both tips",
         source="Balasubramanian et al. 2015, with the jerk instead of the speed's second derivative",
         cannot_tell="anything that integrated jerk did not",
         of=lambda attempt: _worst(attempt, log_dimensionless_jerk, min),

@@ -31,18 +31,14 @@ _HIGHEST, _LOUD, _PADDED = 10.0, 0.05, 4  # [Hz], of the peak, powers of two: SP
 
 def integrated_jerk(motion: SmoothPath) -> float:
     """Return S [1]; nan of a motion that goes nowhere."""
-    if motion.length == 0.0:
-        return nan
-    squared = motion.integral_of_squared(3)
-    return sqrt(motion.duration**5 / (2 * motion.length**2) * squared)
+    length = motion.length()
+    return sqrt(motion.duration**5 / (2 * length**2) * motion.jerk()) if length > 0 else nan
 
 
 def log_dimensionless_jerk(motion: SmoothPath) -> float:
-    """Return LDLJ [1]; nan of a motion that goes nowhere."""
-    fastest = float(motion.speed.max())
-    if fastest == 0.0:
-        return nan
-    return -log(motion.duration**3 / fastest**2 * motion.integral_of_squared(3))
+    """Return LDLJ [1]; nan of a motion that goes nowhere, or of noise alone."""
+    fastest, jerk = float(motion.speed.max()), motion.jerk()
+    return -log(motion.duration**3 / fastest**2 * jerk) if fastest > 0 and jerk > 0 else nan
 
 
 def sparc(speed: FloatArray, rate: float = RATE) -> float:

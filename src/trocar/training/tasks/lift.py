@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from trocar.training.tasks.bands import FORCE_LIMIT, PASS_SOURCE, RADII, marking
+from trocar.training.tasks.bands import BANDS, FORCE_LIMIT, PASS_SOURCE, RADII, marking
 from trocar.training.tasks.step import LetGo, Lift, Step
 from trocar.training.tasks.task import Task
 
 _HAND = 0  # has the grasper
 _PLACES = ((0.020, 0.030), (0.024, 0.038), (0.018, 0.024), (0.025, 0.028))  # x, y [m]
-_HEIGHTS = {1: 4e-4, 2: 6e-4, 3: 8e-4}  # [m] by level; straight up, 0.8 mm pulls at skin with 0.05 N
+_HEIGHT = 6e-4  # [m]; straight up, it pulls at skin with 0.04 N
 _LASTING = 2.5  # [s]
 
 
@@ -21,8 +21,8 @@ def lift(level: int) -> Task:
                 hand=_HAND,
                 place=place,
                 radius=RADII[level],
-                height=_HEIGHTS[level],
-                most=FORCE_LIMIT,
+                height=_HEIGHT,
+                most=BANDS[level][1],
                 lasting=_LASTING,
             ),
             LetGo(hand=_HAND),
@@ -36,6 +36,6 @@ def lift(level: int) -> Task:
         ports="usual",
         steps=tuple(steps),
         force_limit=FORCE_LIMIT,
-        marking=marking(level, expert_time=24.0),
+        marking=marking(level, expert_time=25.5),
         pass_source=PASS_SOURCE,
     )

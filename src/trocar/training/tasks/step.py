@@ -129,7 +129,7 @@ class Press:
             return "Go to the mark."
         force = moment.force(self.hand)
         if force < self.least:
-            return "A little harder."
+            return "A little harder." if moment.touches(self.hand) else "Down, until it touches."
         return "Softer." if force > self.most else "Hold it so."
 
     def mistake(self, moment: Moment) -> str:
