@@ -95,7 +95,7 @@ def test_a_recorded_script_can_be_played_back(run, tmp_path):
     ("arguments", "said"),
     [
         (("test", "simulatd"), "did you mean simulated?"),
-        (("test", "recorded"), "recording: expected a value"),
+        (("test", "recorded"), "recorded device: expected the option --recording"),
         (("test", "recorded", "--recording", "no-such.csv"), "no-such.csv"),
         (("test", "web", "--script", "press"), "script: expected no such option"),
         (("test", "simulated", "--seed", "-1"), "--seed"),
