@@ -3,12 +3,19 @@
 import csv
 import json
 
+import numpy as np
 import pytest
 
 from score_cards import attempt
 from trocar.cli import main
 from trocar.records.questionnaire import ITEMS
+from trocar.records.scripted import attempt_on_record
 from trocar.records.store import Records
+from trocar.simulation import POSE
+from trocar.training.session import scene_of
+from trocar.training.strip import Piece, header, recorded, write_piece
+from trocar.training.tape import read_attempt
+from trocar.training.tasks.catalogue import task
 
 
 @pytest.fixture
@@ -164,8 +171,19 @@ def test_opinions(kept, capsys):
         (["show", "9"], "attempt: expected the number of an attempt, at most 4, got 9"),
         (["show", "x"], "x"),
         (["history", "Ana", "palpate"], "did you mean Anna?"),
-        (["export"], "expected one of --csv and --xapi"),
-        (["export", "--csv", "a", "--xapi", "b"], "expected one of --csv and --xapi"),
+        (["export"], "expected one of --csv, --xapi and --recording"),
+        (["export", "--csv", "a", "--xapi", "b"], "expected one of --csv, --xapi and --recording"),
+        (["export", "--recording", "a"], "--recording and --attempt go together"),
+        (["export", "--csv", "a", "--attempt", "1"], "--recording and --attempt go together"),
+        (["export", "--recording", "a", "--attempt", "1", "--pseudonymous"], "names nobody"),
+        (["export", "--recording", "a", "--attempt", "1"], "header: dt_s: expected a number"),
+        (["rename", "Ana", "Eve"], "did you mean Anna?"),
+        (["rename", "Ben [red]", "Anna"], "a name that nobody has"),
+        (["rename", "Ben [red]", " "], "1 to 80 characters"),
+        (["rename", "Anna", "Eve"], "expected no attempt under way, got 'attempt 3'"),
+        (["remove", "Ana", "--yes"], "did you mean Anna?"),
+        (["remove", "Anna", "--yes"], "expected no attempt under way, got 'attempt 3'"),
+        (["remove", "Ben [red]"], "expected --yes where nobody can be asked"),
         (["export", "--csv", "a", "--home-page", "b"], "--home-page is for --xapi"),
         (["opinions", "--group-a", "expert"], "two that differ"),
         (["opinions", "--group-a", "beginner"], "novice or resident or expert"),
@@ -178,6 +196,54 @@ def test_what_cannot_be_asked_is_refused(kept, capsys, options, words):
     said = capsys.readouterr()
     assert words in " ".join(said.err.split())
     assert said.out == ""
+
+
+def test_an_attempt_goes_into_a_file_and_comes_out_of_it_bit_by_bit(folder, capsys, tmp_path):
+    with Records.open(folder) as records:
+        card = attempt_on_record(records, "palpate", seed=2).card
+        begun = records.begin(
+            records.trainee("Ada"), task="palpate", level=1, device="web", header=header(1e-3, None), dt=1e-3
+        )
+        began = np.array([True, False, False, True])
+        poses = np.zeros((4, 2, POSE))
+        records.add(begun, write_piece(Piece(targets=poses, began=began, skipped=np.zeros(4, int))), 4)
+        kept = recorded(*records.chunks(1))
+    out = tmp_path / "attempt.csv"
+    assert main(["records", "export", "--attempt", "1", "--recording", str(out)]) == 0
+    assert capsys.readouterr().out == f"{out}: attempt 1, {card.duration:.1f} s, palpate, level 1\n"
+    from_file = read_attempt(out)
+    assert from_file.poses.tobytes() == kept.poses.tobytes()
+    scene = scene_of(task("palpate"))
+    assert from_file.played(scene).tobytes() == kept.played(scene).tobytes()
+    cards = []
+    for which in (["--attempt", "1"], [str(out), "--task", "palpate"]):
+        assert main(["replay", *which, "--json"]) == 0
+        cards.append(json.loads(capsys.readouterr().out))
+    assert cards[0] == cards[1] == json.loads(json.dumps(card.as_dict()))
+    assert main(["records", "export", "--attempt", "2", "--recording", str(tmp_path / "other.csv")]) == 2
+    assert "'rest once more at 0.003 s'" in capsys.readouterr().err
+
+
+def test_a_trainee_gets_another_name(kept, capsys):
+    assert main(["records", "rename", "Ben [red]", " Eve "]) == 0
+    assert capsys.readouterr().out == "Eve: 1 attempt\n"
+    assert [row.trainee for row in kept.attempts()] == ["Anna", "Eve", "Anna", "Anna"]
+
+
+def test_a_trainee_is_removed_after_a_question(kept, capsys, monkeypatch):
+    monkeypatch.setattr("sys.stdin.isatty", lambda: True, raising=False)
+    asked = []
+    monkeypatch.setattr("typer.confirm", lambda words: asked.append(words) or len(asked) > 1)
+    assert main(["records", "remove", "Ben [red]"]) == 0
+    assert capsys.readouterr().out == "Nothing was removed.\n"
+    assert len(kept.attempts()) == 4
+    (kept.path.parent / "records.db.schema-0001").touch()
+    assert main(["records", "remove", "Ben [red]"]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("Ben [red] was removed with 1 attempt.\n")
+    assert "records.db.schema-0001 is from before" in said
+    assert asked[0] == "Remove Ben [red] with 1 attempt, recordings and answers? It cannot be undone."
+    assert [row.id for row in kept.attempts()] == [1, 3, 4]
 
 
 def test_trouble_is_one_line(folder, capsys):

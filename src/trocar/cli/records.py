@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from trocar.cli.records_shown import print_attempt, print_attempts, print_history, print_opinions, say
+from trocar.cli.records_trainees import remove, rename, trainee_of
 
 if TYPE_CHECKING:
     from trocar.records.store import Records
@@ -28,6 +29,8 @@ def register(app: typer.Typer) -> None:
     group.command(epilog="Example: trocar records history Anna palpate --level 2")(history)
     group.command(epilog="Example: trocar records export --csv attempts.csv --pseudonymous")(export)
     group.command(epilog="Example: trocar records opinions --group-a novice --group-b expert")(opinions)
+    group.command(epilog="Example: trocar records rename Ana Anna")(rename)
+    group.command(epilog="Example: trocar records remove Anna --yes")(remove)
     app.add_typer(group, name="records")
 
 
@@ -74,17 +77,8 @@ def history(
     as_json: AsJson = False,
 ) -> None:
     """Print a trainee's learning curve at a task: scores, the CUSUM chart, and what remains."""
-    from difflib import get_close_matches
-
-    from trocar.errors import InputError
-
     with _opened() as records:
-        known = [trainee.name for trainee in records.trainees()]
-        if name not in known:
-            close = get_close_matches(name, known, 1)
-            advice = f"did you mean {close[0]}?" if close else "trocar records lists attempts"
-            raise InputError("trainee", "one that has records", name, advice)
-        found = records.history(name, task, level)
+        found = records.history(trainee_of(records, name).name, task, level)
     if as_json:
         _print_json(found.as_dict())
     else:
@@ -100,6 +94,13 @@ def export(
         Path | None,
         typer.Option(help="xAPI statements, one JSON array, go there; - is stdout.", show_default=False),
     ] = None,
+    recording: Annotated[
+        Path | None,
+        typer.Option(help="The recording of --attempt, every tick, goes there.", show_default=False),
+    ] = None,
+    attempt: Annotated[
+        int | None, typer.Option(help="With --recording: number of the attempt.", show_default=False)
+    ] = None,
     trainee: Trainee = None,
     pseudonymous: Annotated[bool, typer.Option("--pseudonymous", help="Numbers instead of names.")] = False,
     home_page: Annotated[
@@ -109,12 +110,19 @@ def export(
         ),
     ] = None,
 ) -> None:
-    """Write attempts and their metrics for a spreadsheet or a learning record store."""
+    """Write attempts and their metrics for a spreadsheet or a learning record store, or one attempt's recording."""
     from trocar.records.tidy import ABOUT, table
     from trocar.records.xapi import HOME_PAGE, statements
 
-    if (csv is None) == (xapi is None):
-        raise typer.BadParameter("expected one of --csv and --xapi")
+    if [csv, xapi, recording].count(None) != 2:
+        raise typer.BadParameter("expected one of --csv, --xapi and --recording")
+    if (recording is None) != (attempt is None):
+        raise typer.BadParameter("--recording and --attempt go together")
+    if recording is not None and attempt is not None:
+        if trainee is not None or pseudonymous or home_page is not None:
+            raise typer.BadParameter("a recording names nobody: it takes --attempt alone")
+        _write_recording(recording, attempt)
+        return
     if xapi is None and home_page is not None:
         raise typer.BadParameter("--home-page is for --xapi")
     with _opened() as records:
@@ -174,6 +182,17 @@ def _write(out: Path, text: str, beginning: str, what: str, how_many: int) -> No
         return
     write_export(out, text, beginning)
     typer.echo(f"{out}: {how_many} {what}{'' if how_many == 1 else 's'}")
+
+
+def _write_recording(out: Path, number: int) -> None:
+    from trocar.training.strip import recorded
+    from trocar.training.tape import write_attempt
+
+    with _opened() as records:
+        row, kept = records.attempt(number).row, recorded(*records.chunks(number))
+    write_attempt(out, kept)
+    seconds = len(kept.poses) * kept.dt
+    typer.echo(f"{out}: attempt {number}, {seconds:.1f} s, {row.task}, level {row.level}")
 
 
 def _say_what_to_do(records: Records, trainee: str | None, task: str | None) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from sqlalchemy import func, insert, select, update
+from sqlalchemy import delete, func, insert, select, text, update
 from sqlalchemy.orm import Session
 
 from trocar.errors import InputError
@@ -20,14 +20,63 @@ from trocar.records.tables import AnswerTable, AttemptTable, ChunkTable, MetricT
 if TYPE_CHECKING:
     from trocar.training.session import Card
 
+_LAST_REMOVED = text("SELECT seq FROM sqlite_sequence WHERE name = 'trainee'")
+
 
 def trainee(session: Session, name: str) -> Trainee:
     """Return the trainee of a name, new or not."""
     known = reading.trainees(session, TraineeTable.name == name)
     if known:
         return known[0]
-    session.execute(insert(TraineeTable).values(name=name, began=now()))
+    given = [session.scalar(select(func.max(TraineeTable.id))), session.scalar(_LAST_REMOVED)]
+    number = 1 + max((last for last in given if last is not None), default=0)
+    session.execute(insert(TraineeTable).values(id=number, name=name, began=now()))
     return reading.trainees(session, TraineeTable.name == name)[0]
+
+
+def rename(session: Session, old: str, new: str) -> Trainee:
+    """Give a trainee a name that nobody has."""
+    found = _idle(session, old)
+    if new == found.name:
+        return found
+    if reading.trainees(session, TraineeTable.name == new):
+        advice = "trainees cannot be joined; choose another name"
+        raise InputError("rename", "a name that nobody has", new, advice)
+    session.execute(update(TraineeTable).where(TraineeTable.id == found.id).values(name=new))
+    return reading.trainees(session, TraineeTable.id == found.id)[0]
+
+
+def remove(session: Session, name: str) -> int:
+    """Remove a trainee and all there is of them, and say how many attempts there were.
+
+    The largest number that was removed is remembered, in SQLite's own table of such, so that it is never given again.
+    """
+    found = _idle(session, name)
+    theirs = select(AttemptTable.id).where(AttemptTable.trainee_id == found.id)
+    session.execute(
+        delete(AnswerTable).where((AnswerTable.trainee_id == found.id) | AnswerTable.attempt_id.in_(theirs))
+    )
+    for table in (ChunkTable, MetricTable):
+        session.execute(delete(table).where(table.attempt_id.in_(theirs)))
+    session.execute(delete(AttemptTable).where(AttemptTable.trainee_id == found.id))
+    session.execute(delete(TraineeTable).where(TraineeTable.id == found.id))
+    last = max(found.id, session.scalar(_LAST_REMOVED) or 0)
+    session.execute(text("DELETE FROM sqlite_sequence WHERE name = 'trainee'"))
+    session.execute(text("INSERT INTO sqlite_sequence (name, seq) VALUES ('trainee', :last)"), {"last": last})
+    return found.attempts
+
+
+def _idle(session: Session, name: str) -> Trainee:
+    """Return the trainee of a name, with no attempt under way."""
+    known = reading.trainees(session, TraineeTable.name == name)
+    if not known:
+        raise InputError("trainee", "one that has records", name)
+    rows = reading.attempts(session, AttemptTable.trainee_id == known[0].id)
+    for row in (row for row in rows if row.status is Status.RUNNING):
+        raise InputError(
+            f"trainee {name}", "no attempt under way", f"attempt {row.id}", "end it first: trocar records"
+        )
+    return known[0]
 
 
 def described(header: Mapping[str, object]) -> str:

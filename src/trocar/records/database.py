@@ -43,6 +43,7 @@ def engine_for_writing(path: Path, patience: float) -> Engine:
         connection = _connect(path, "mode=rwc", patience)
         connection.execute("PRAGMA foreign_keys = ON")
         connection.execute("PRAGMA synchronous = FULL")
+        connection.execute("PRAGMA secure_delete = ON")  # what is removed is overwritten, not only let go
         return connection
 
     # The pool is as patient as the file: a thread that found no connection would say the same thing.
@@ -95,6 +96,20 @@ def use_write_ahead(path: Path, patience: float) -> None:
             connection.execute("PRAGMA journal_mode = WAL")
         finally:
             connection.close()
+
+
+def clear_out(engine: Engine) -> None:
+    """Write the file anew without what was deleted, which would stay readable in it, and empty its companion."""
+    connection = engine.raw_connection()
+    try:
+        cursor = connection.cursor()
+        cursor.execute("VACUUM")
+        cursor.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        busy, *_ = cursor.fetchone() or (1,)
+        if busy:
+            raise sqlite3.OperationalError("what was removed waits in the companion file; close the trainer")
+    finally:
+        connection.close()
 
 
 def copy_whole(path: Path, copy: Path, patience: float) -> None:

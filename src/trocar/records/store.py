@@ -20,6 +20,7 @@ from sqlalchemy.pool import StaticPool
 from trocar.records import changes, reading
 from trocar.records.database import (
     PATIENCE,
+    clear_out,
     engine_for_reading,
     engine_for_writing,
     use_write_ahead,
@@ -27,7 +28,7 @@ from trocar.records.database import (
 )
 from trocar.records.folder import FILE, check_folder, make_folder, records_folder
 from trocar.records.learning import History
-from trocar.records.names import trainee_name
+from trocar.records.names import as_kept, trainee_name
 from trocar.records.rows import AttemptRow, KeptAttempt, Metric, Status, Trainee
 from trocar.records.schema import NEWEST, WITH_ANSWERS, bring_up, version
 from trocar.records.sheets import Sheet
@@ -197,6 +198,40 @@ class Records:
         """
         with self._writing() as session:
             changes.answer(session, trainee, attempt, group, values)
+
+    def rename(self, old: str, new: str) -> Trainee:
+        """Give a trainee another name, and return the trainee.
+
+        Raises:
+            InputError: nobody has the old name, somebody has the new one or nobody can, or an attempt is under way.
+            RecordsError: nothing can be written.
+        """
+        kept = trainee_name(new)
+        with self._writing() as session:
+            return changes.rename(session, as_kept(old), kept)
+
+    def remove(self, name: str) -> int:
+        """Remove a trainee with attempts, metrics, recordings and answers, all or nothing; return how many attempts.
+
+        Raises:
+            InputError: nobody has that name, or an attempt of theirs is under way.
+            RecordsError: nothing can be written.
+        """
+        with self._writing() as session:
+            return changes.remove(session, as_kept(name))
+
+    def give_back_space(self) -> None:
+        """Write the file anew without what was removed: until then it can still be read there.
+
+        Raises:
+            RecordsError: another process is at it, or there is no room for a second file; try again later.
+        """
+        with told(self.path):
+            clear_out(self._engine)
+
+    def older_copies(self) -> list[Path]:
+        """Return the files kept beside this one when it was brought to a newer schema."""
+        return sorted(self.path.parent.glob(f"{self.path.name}.schema-*"))
 
     # What is asked.
 

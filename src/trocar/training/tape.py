@@ -14,6 +14,7 @@ from trocar.devices.device import HandlePose
 from trocar.devices.recorded import RecordedDevice
 from trocar.devices.recorder import pose_table
 from trocar.devices.recording import Moment, write_recording
+from trocar.errors import InputError
 from trocar.simulation import DT, HANDLE, JAW, PRESENT, ROLL
 from trocar.training.session import Recording
 
@@ -22,9 +23,15 @@ def write_attempt(path: str | os.PathLike[str], recording: Recording) -> None:
     """Write every tick, into a file that is whole or not there; an older recording is replaced.
 
     Raises:
-        InputError: another file has that name, or a pose could not be read back.
+        InputError: another file has that name, a pose could not be read back, nothing was recorded, or the tissue was
+            put to rest meanwhile, which the format cannot say.
         OSError: the place cannot be written to.
     """
+    if not len(recording.poses):
+        raise InputError("recording", "a tick at least", "none", "nothing was recorded of it")
+    if recording.resets:
+        at = f"rest once more at {recording.resets[0] * recording.dt:g} s"
+        raise InputError("recording", "one that begins from rest once", at, "a file of poses cannot say that")
     write_recording(path, _moments(recording))
 
 

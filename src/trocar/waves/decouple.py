@@ -5,6 +5,16 @@ proportional (it is diagonal in the undamped modes: Caughey and O'Kelly 1965, J 
 the undamped modes. Else they are pairs of poles of the first-order form: complex conjugates together, real poles by
 neighbours. Two real poles that (almost) coincide share eigenvectors; their block is then taken from an ordered real
 Schur form, which stays accurate (Bavely and Stewart 1979, SIAM J Numer Anal 16:359).
+
+Eigenvalues come out to the rounding of the largest. Where something decays faster than anything vibrates, as a stiff
+and viscous bed between two layers does, that would drown the slow motion, which is the one that lasts (of the skin
+preset's, nine digits of sixteen were lost). There the inverse of the first-order form is split, whose largest
+eigenvalues are the slowest.
+In modes with K = 1, M = Z^2 and C = T, and with x = (a, Z a') for the modal amplitudes a, it is
+
+    A^-1 = [[-T, -Z], [Z, 0]],
+
+to which nothing large needs to be known.
 """
 
 from __future__ import annotations
@@ -76,9 +86,14 @@ def decouple(mass: FloatArray, damping: FloatArray, stiffness: FloatArray) -> Bl
     projector = np.swapaxes(shapes, -1, -2) @ mass
     proportional = _is_diagonal(modal_damping)
     _fill_undamped_modes(blocks, proportional, frequency, modal_damping)
-    if not proportional.all():
-        _fill_complex_modes(blocks, ~proportional, frequency, modal_damping)
-    return _in_amplitudes(blocks, shapes, projector, frequency)
+    fast = np.abs(modal_damping).max(axis=(-2, -1), initial=0.0) > frequency.max(axis=-1, initial=0.0)
+    overdamped, swinging = ~proportional & fast, ~proportional & ~fast
+    if swinging.any():
+        _fill_complex_modes(blocks, swinging, frequency, modal_damping)
+    result = _in_amplitudes(blocks, shapes, projector, frequency)
+    if overdamped.any():
+        _fill_overdamped(result, overdamped, mass, damping, stiffness)
+    return result
 
 
 def _congruent(inverse: FloatArray, matrix: FloatArray) -> FloatArray:
@@ -126,12 +141,52 @@ def _fill_complex_modes(
     system[:, modes, order + modes] = w
     system[:, order + modes, modes] = -w
     system[:, order:, order:] = -damping[where]
+    matrices, columns, rows = _split(system)
+    blocks.matrices[where], blocks.entry[where], blocks.exit[where] = matrices, rows, columns[:, :order]
+
+
+def _fill_overdamped(
+    blocks: Blocks, where: np.ndarray, mass: FloatArray, damping: FloatArray, stiffness: FloatArray
+) -> None:
+    """Split the inverse; entry and exit are those of amplitudes at once."""
+    scale = 1 / np.sqrt(np.diagonal(stiffness[where], axis1=-2, axis2=-1))  # equilibrated: van der Sluis 1969
+    factor = np.linalg.cholesky(scale[..., :, None] * stiffness[where] * scale[..., None, :])
+    inverse = np.linalg.inv(factor) * scale[..., None, :]
+    squares, vectors = np.linalg.eigh(_congruent(inverse, mass[where]))
+    slowness = np.sqrt(squares)  # Z
+    modes = np.swapaxes(inverse, -1, -2) @ vectors
+    from_amplitudes = np.swapaxes(vectors, -1, -2) @ np.swapaxes(factor, -1, -2) / scale[..., None, :]
+    count, order = slowness.shape
+    system = np.zeros((count, 2 * order, 2 * order))
+    at = np.arange(order)
+    system[:, :order, :order] = -np.swapaxes(modes, -1, -2) @ damping[where] @ modes
+    system[:, at, order + at] = -slowness
+    system[:, order + at, at] = slowness
+    matrices, columns, rows = _split(system)
+    blocks.matrices[where] = np.linalg.inv(matrices)
+    blocks.exit[where] = np.einsum("jam,jmsi->jasi", modes, columns[:, :order])
+    blocks.entry[where] = np.concatenate(
+        [
+            np.einsum("jsim,jma->jsia", rows[..., :order], from_amplitudes),
+            np.einsum("jsim,jm,jma->jsia", rows[..., order:], slowness, from_amplitudes),
+        ],
+        axis=-1,
+    )
+
+
+def _split(system: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return real blocks of J matrices of even size a: sum over blocks of columns block rows = system.
+
+    Returns:
+        Blocks (J, a/2, 2, 2), columns (J, a, a/2, 2) and rows (J, a/2, 2, a).
+    """
+    systems, order = len(system), system.shape[-1] // 2
     poles, right = np.linalg.eig(system)
     left = np.linalg.inv(right)
     poles, right, left = poles.astype(complex), right.astype(complex), left.astype(complex)
     condition = (np.linalg.norm(right, axis=-2) * np.linalg.norm(left, axis=-1)).max(axis=-1)
-    matrices = np.zeros((len(w), order, 2, 2))
-    columns, rows = np.zeros((len(w), 2 * order, order, 2)), np.zeros((len(w), order, 2, 2 * order))
+    matrices = np.zeros((systems, order, 2, 2))
+    columns, rows = np.zeros((systems, 2 * order, order, 2)), np.zeros((systems, order, 2, 2 * order))
     real = (poles.imag == 0).sum(axis=-1)
     for count in np.unique(real):
         alike = real == count
@@ -147,7 +202,7 @@ def _fill_complex_modes(
             f"damped modes: expected a residual below {_RESIDUAL:g}, got {residual:.2g}: more than two poles "
             "coincide; change a layer's damping by a part in a thousand"
         )
-    blocks.matrices[where], blocks.entry[where], blocks.exit[where] = matrices, rows, columns[:, :order]
+    return matrices, columns, rows
 
 
 def _pair(
