@@ -48,7 +48,7 @@ export function result(card: ScoreCard, task: TaskLevel): Line[] {
     [card.passed ? "passed" : "failed", verdict],
     ...card.advice.slice(0, MOST_ADVICE).map((words) => ["words", words] as const),
     ["hint", "Squeeze both triggers to try again."],
-    ["note", `${task.pass_score.toFixed(0)} passes. Leave the headset for the score card and the replay.`],
+    ["note", `${task.pass_score.toFixed(0)} passes. Leave the headset for card and replay.`],
   ];
 }
 

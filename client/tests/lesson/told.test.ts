@@ -51,7 +51,7 @@ describe("what eyes in a headset are told", () => {
       ["words", "Be quicker."],
       ["words", "Press less."],
       ["hint", "Squeeze both triggers to try again."],
-      ["note", "75 passes. Leave the headset for the score card and the replay."],
+      ["note", "75 passes. Leave the headset for card and replay."],
     ]);
     expect(result({ ...CARD, score: 74.4, passed: false }, TASK)[0]).toEqual(["failed", "74 of 100, not passed"]);
   });
