@@ -5,7 +5,7 @@ The board that eyes in a headset see is a canvas, so `BOARD` keeps what is writt
 
 import numpy as np
 
-from browser.obedient import Obedient
+from browser.obedient import ABOVE, Obedient
 
 FARTHEST = 0.03  # [m] that a hand goes in one movement
 BOARD = """
@@ -44,6 +44,14 @@ class ByControllers(Obedient):
         self.page.evaluate(
             "([side, share]) => xrDevice.controllers[side].updateButtonValue('trigger', share)", [side, share]
         )
+
+    def raised(self):
+        """Raise tips that are low, and return whether both are out of the tissue."""
+        self.state = self.watcher.look()
+        low = [hand for hand in (0, 1) if self.tip(hand)[2] < 0.5 * ABOVE]
+        for hand in low:
+            self.move(hand, [*self.tip(hand)[:2], ABOVE], seen=self.tip(hand))
+        return not low
 
     def take(self, hand):
         """Do nothing: both hands hold theirs all the time."""

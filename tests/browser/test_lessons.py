@@ -262,6 +262,7 @@ def test_a_day_with_an_emulated_headset(lesson):
         if done:
             break
     assert done, hands.board()
+    lesson.until(hands.raised, "both tips are out of the tissue, where they stay")
     page.evaluate("xrDevice.activeSession.end()")  # by the headset's own button
     lesson.until(lambda: lesson.button("Enter the headset").count() == 1, "the headset is left")
 
