@@ -1,7 +1,7 @@
-"""Take pictures of a lesson with headless Chromium (make shots): choose, attempt, card, replay, history.
+"""Take pictures of a lesson with headless Chromium (make shots): choose, attempt, card, replay, history, board.
 
 A scripted novice's attempt is recorded, and plays as the trainer's own device; attempts before it, the later the
-better, make the history.
+better, make the history. The board is what an emulated headset shows of the card.
 """
 
 from __future__ import annotations
@@ -14,7 +14,18 @@ from tempfile import TemporaryDirectory
 
 from browsing import chromium
 from playwright.sync_api import Page
-from shots import OUT, PATIENCE, WINDOW, ShotError, trainer, until
+from shots import (
+    EMULATOR,
+    HEADSET,
+    LEAN,
+    OUT,
+    PATIENCE,
+    WINDOW,
+    ShotError,
+    trainer,
+    until,
+    wait_for_turns,
+)
 
 from trocar.records.scripted import attempt_on_record
 from trocar.records.store import Records
@@ -31,8 +42,7 @@ def take(page: Page, address: str, out: Path) -> None:
 
     def shoot(name: str, settle: int = 1500) -> None:
         page.wait_for_timeout(settle)
-        image = page.screenshot(path=out / f"{name}.jpg", type="jpeg", quality=88, timeout=PATIENCE)
-        print(f"{out / name}.jpg: {len(image) / 1000:.0f} kB", flush=True)
+        save(page, out / f"{name}.jpg")
 
     def drawn(where: str) -> None:
         pictures = page.locator(f"{where} figure img")
@@ -67,6 +77,36 @@ def take(page: Page, address: str, out: Path) -> None:
     shoot("history")
 
 
+def take_board(page: Page, address: str, out: Path) -> None:
+    """Look at the newest card in an emulated headset, and write a picture of the board."""
+
+    def press(name: str) -> None:
+        page.get_by_role("button", name=name, exact=True).click()
+
+    page.set_default_timeout(PATIENCE)
+    page.add_init_script(EMULATOR.read_text(encoding="utf-8") + HEADSET)
+    page.goto(address)
+    press("Choose a task")
+    page.fill("#trainee", WHO)
+    press("Go on")
+    press("History")
+    page.get_by_role("button", name="Score card of attempt").first.click()
+    page.locator("#card").get_by_role("button", name="Close", exact=True).click()
+    press("Enter the headset")
+    leave = page.get_by_role("button", name="Leave the headset")
+    until(page, lambda: leave.count() == 1, "the headset's session did not begin")
+    wait_for_turns(page)  # the block is put before the head when that is first tracked
+    page.evaluate(LEAN)
+    wait_for_turns(page)
+    save(page, out / "board.jpg")
+
+
+def save(page: Page, path: Path) -> None:
+    """Write a picture of a page."""
+    image = page.screenshot(path=path, type="jpeg", quality=88, timeout=PATIENCE)
+    print(f"{path}: {len(image) / 1000:.0f} kB", flush=True)
+
+
 def main() -> int:
     """Read the command line and take the pictures."""
     parser = argparse.ArgumentParser(
@@ -85,6 +125,7 @@ def main() -> int:
             write_attempt(recording, attempt(TASK, skill="novice", seed=SEED).recording)
             with trainer("--device", "recorded", "--recording", str(recording)) as address:
                 take(browser.new_page(viewport=WINDOW), address, arguments.out)
+                take_board(browser.new_page(viewport=WINDOW), address, arguments.out)
     except (FileNotFoundError, ShotError) as error:
         print(f"shots: {error}", file=sys.stderr)
         return 1

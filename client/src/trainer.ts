@@ -141,7 +141,7 @@ export class Trainer {
     this.tracked = this.immersion.controllers(xr);
     this.squeeze.take(this.tracked, seconds);
     for (const device of [...this.devices, this.headset]) hands.move(device, view, seconds);
-    for (const side of SIDES) this.link.pose(side, hands.poses[side], now);
+    for (const side of SIDES) this.link.pose(side, hands.poses[side], now, this.tracked[side] !== null);
   }
 
   private held(): readonly [Drawn, Drawn] | null {

@@ -1,119 +1,27 @@
-"""A trainee at the page who does as he is told: mouse and keyboard, the marks, the bars and the hint, and no more.
+"""A trainee at the page who does as he is told with mouse and keyboard.
 
-The hint says what would bring the step nearer; a hand that sees where its tip is and how hard it presses obeys it. Tips
-follow the mouse by the lever: across the view the tip goes the other way, the wheel slides it in and out.
+Tips follow the mouse by the lever: across the view the tip goes the other way, the wheel slides it in and out.
 """
-
-import re
-import time
 
 import numpy as np
 
+from browser.obedient import SIDES, Obedient
+
 FIELD = np.radians(72)  # of the endoscope's view
 WORKING_DISTANCE = 0.07  # [m] from eye to target
-ABOVE = 9e-3  # [m] over the tissue, on the way to a mark: a swing about the port dips
-LATEST = 0.5  # [s] after which a movement is seen, by a page drawn by software
-SIDES = {"left": 0, "right": 1}
 NOTCH = 100 / 0.002  # [px/m] of the wheel
 
 
-class ByHand:
-    """Hands on mouse and keyboard.
-
-    Args:
-        page: of the trainer, the picture focused.
-        watcher: what is seen of tips and forces, and what is said.
-    """
+class ByHand(Obedient):
+    """Hands on mouse and keyboard; the picture must be focused."""
 
     def __init__(self, page, watcher):
-        self.page, self.watcher = page, watcher
+        super().__init__(page, watcher)
         self.box = page.locator("#picture").bounding_box()
         self.active = SIDES[page.inner_text("#active").split()[0]]
         self.jaw_open = [True, True]
         self.mouse = None
-        self.going = None  # where a gliding tip is on its way to [m]
-        self.state = watcher.look()
-
-    def do(self, number, patience):
-        """Do the attempt of a number as it is asked for; return the last that was said."""
-        end = time.monotonic() + patience
-        self.page.keyboard.press("c")
-        while time.monotonic() < end:
-            said = self.watcher.guiding
-            self.state = self.watcher.look()
-            if said is None or said["attempt"] != number:
-                continue
-            if said["state"] != "running":
-                return said
-            self.obey(said)
-        raise AssertionError(f"not done in {patience} s: {self.watcher.guiding}")
-
-    def obey(self, said):
-        hint = said["hint"]
-        side, _, rest = hint.partition(": ")
-        if side.lower() in SIDES:
-            hand, hint = SIDES[side.lower()], rest
-        else:
-            hand = SIDES[re.search(r"the (left|right) (?:hand|jaw)", said["words"])[1]]
-        marks = [mark for mark in said["marks"] if SIDES[mark["hand"]] == hand]
-        self.take(hand)
-        tip, force = self.tip(hand), float(np.linalg.norm(self.state.instruments[hand].force))
-        place = np.array(marks[0]["place_m"]) if marks else tip[:2]
-        least, most = said["least_n"][hand], said["most_n"][hand]
-        wanted = min(0.5 * (least + most), 0.038) if most else 0.03
-        match hint:
-            case "Go to the mark." | "Go to the mark, jaw open.":
-                self.jaw(hand, is_open=True)
-                away = np.hypot(*(place - tip[:2]))
-                up = ABOVE if away > 2 * marks[0]["radius_m"] else max(tip[2], 0.5e-3)
-                self.move(hand, [*(place if tip[2] > 0.6 * up else tip[:2]), up], seen=tip)
-            case "Keep touching it.":
-                self.press(hand, tip[:2], tip, force, wanted)
-            case "Down, until it touches." | "Touch the line." | "Press lightly, jaw open.":
-                self.press(hand, place, tip, force, wanted)
-            case "A little harder." | "Softer.":
-                self.press(hand, place, tip, force, wanted)
-            case "On along the line." if force < 0.7 * wanted:
-                self.press(hand, tip[:2], tip, force, wanted)
-            case "On along the line.":
-                self.glide(hand, marks, tip, force, wanted)
-            case "Hold it so.":
-                if least and not 0.8 * wanted < force < 1.3 * wanted:
-                    self.press(hand, tip[:2], tip, force, wanted)
-            case "Close the jaw on it.":
-                self.jaw(hand, is_open=False)
-            case "Raise it, straight up.":
-                self.move(hand, [*place, tip[2] + 1.2e-4], seen=tip)
-            case "Open the jaw." | "Open the jaw again: it closed on nothing.":
-                self.jaw(hand, is_open=True)
-            case "Up.":
-                self.move(hand, [*tip[:2], tip[2] + 1e-3], seen=tip)
-            case _ if hint.endswith("tip out of the tissue first."):
-                self.move(hand, [*tip[:2], ABOVE], seen=tip)
-            case _:
-                assert hint in {"", "Get ready."}, f"nobody knows what to do at {hint!r}"
-
-    def glide(self, hand, marks, tip, force, wanted):
-        """Go on by a little from where the hand is going anyway, without waiting to see it."""
-        if self.going is None or np.linalg.norm(self.going - tip) > 2e-3:
-            self.going = tip
-        ahead = np.array(marks[min(6, len(marks) - 1)]["place_m"])
-        way = ahead - self.going[:2]
-        way *= min(1.0, 8e-4 / max(np.hypot(*way), 1e-9))
-        down = np.clip((wanted - force) / 2000.0, -1e-5, 1e-5)
-        seen, self.going = self.going, self.going + np.array([*way, -down])
-        self.send(hand, self.going, seen=seen)
-        self.page.wait_for_timeout(40)
-
-    def press(self, hand, place, tip, force, wanted):
-        """Bring the force nearer to what is wanted, at a place."""
-        self.going = None
-        way = place - tip[:2]
-        if force == 0.0:  # the surface is near zero; from there on it is felt
-            down = tip[2] - 2e-4 if tip[2] > 4e-4 else 8e-5
-        else:
-            down = np.clip((wanted - force) / 350.0, -2e-4, 6e-5)  # [N/m] stiffer than the tissue is
-        self.move(hand, [*(tip[:2] + way), tip[2] - down], seen=tip)
+        page.keyboard.press("c")
 
     def take(self, hand):
         """Change hands."""
@@ -126,14 +34,6 @@ class ByHand:
             self.take(hand)
             self.page.keyboard.press("Space")
             self.jaw_open[hand] = is_open
-
-    def tip(self, hand):
-        return np.array(self.state.instruments[hand].tip)
-
-    def move(self, hand, to, *, seen):
-        """Move the tip to a place [m], as far as one movement of the mouse brings it, and wait until it is there."""
-        self.send(hand, to, seen=seen)
-        self.see(hand, seen, np.linalg.norm(np.asarray(to) - seen))
 
     def send(self, hand, to, *, seen):
         """Move the mouse so that the tip goes to a place [m]."""
@@ -156,16 +56,6 @@ class ByHand:
         self.shift(-float(beside @ right) / (ratio * pixel), float(beside @ up) / (ratio * pixel))
         if abs(slide) > 1e-6:
             self.page.mouse.wheel(0, -slide * NOTCH)
-
-    def see(self, hand, seen, distance):
-        """Wait until most of a movement is seen, or until it will not come; the tissue may hold a tip back."""
-        end = time.monotonic() + LATEST
-        while True:
-            self.page.wait_for_timeout(5)
-            self.state = self.watcher.look()
-            moved = np.linalg.norm(self.tip(hand) - seen)
-            if moved > 0.7 * distance or time.monotonic() > end:
-                return
 
     def shift(self, right, down):
         """Move the mouse by so much [px]; before it would leave the picture it is put back to the middle."""

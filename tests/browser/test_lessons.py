@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import re
 import time
+from io import BytesIO
 
 import numpy as np
 import pytest
+from PIL import Image
 
+from browser.by_controllers import BOARD, ByControllers
 from browser.by_hand import ByHand
 from browser.open_page import HEADSET, MODULES, axe_is_content
 from live_process import training, watching
@@ -16,9 +19,16 @@ from trocar.training.tasks.catalogue import TASKS, task
 pytestmark = pytest.mark.alone  # an attempt is timed: what else runs makes hands slow that see late
 PATIENCE = 120.0  # [s] for a page drawn by software on a busy machine; nothing here is about speed
 TRIES = 4
-SQUEEZE = """(share) => {
-  for (const each of [xrDevice.controllers.left, xrDevice.controllers.right]) each.updateButtonValue("trigger", share);
+LEANS = """() => {  // forwards, and looks down by 46 degrees, to where the block is put
+  xrDevice.position.set(0, 1.34, -0.23);
+  xrDevice.quaternion.set(-0.389, 0, 0, 0.921);
 }"""
+
+
+def amber(page):
+    """Return how many pixels of a page have the colour of hints, which nothing of a body has."""
+    red, green, blue = np.asarray(Image.open(BytesIO(page.screenshot())).convert("RGB"), dtype=int).T
+    return int(((red > 200) & (green > 120) & (green < 200) & (blue < 80)).sum())
 
 
 def script(*path):
@@ -107,6 +117,40 @@ class Trainee:
         )
         assert self.page.locator(f"{where} figure img").count() >= 2
 
+    def squeezes(self, hands):
+        """Begin the attempt with both triggers and return its number."""
+        before = self.watcher.guiding["attempt"] if self.watcher.guiding else 0
+        hands.squeeze(1.0)
+        self.until(
+            lambda: self.watcher.guiding is not None and self.watcher.guiding["attempt"] > before, "it begins"
+        )
+        hands.squeeze(0.0)
+        return self.watcher.guiding["attempt"]
+
+    def looks_half_a_second_before_a_step_was_done(self, steps):
+        """Let a film begin that shows two attempts, and put its timeline to where the tip pressed."""
+        page = self.page
+        page.wait_for_selector("#beside:not([hidden])", timeout=1e3 * PATIENCE)
+        self.until(lambda: not page.inner_text("#film-told").startswith("0.0"), "the film runs")
+        duration = float(page.get_attribute("#film-time", "max"))
+        share = page.locator("#film-ticks .step").evaluate_all(
+            "all => all.map((each) => parseFloat(each.style.left))"
+        )
+        assert len(share) == steps
+        done = 0.01 * share[0] * duration
+        page.locator("#film-time").fill(f"{0.04 * round((done - 0.5) / 0.04):.2f}")
+        self.until(
+            lambda: "touching" in page.inner_text("#bars"),
+            "half a second before it was done the tip pressed",
+        )
+        both = [page.locator(each).screenshot() for each in ("#canvas", "#beside-canvas")]
+        assert both[0] != both[1]
+
+    def closes_the_film(self):
+        self.page.locator("#film-close").click()
+        assert not self.page.locator("#beside").is_visible()
+        self.until(lambda: "free" in self.page.inner_text("#bars"), "the live tissue is there again")
+
     def closes(self, dialog):
         self.page.locator(dialog).get_by_role("button", name="Close", exact=True).click()
         assert not self.page.locator(dialog).is_visible()
@@ -186,64 +230,55 @@ def test_a_day_from_the_choice_to_the_history(lesson):
     lesson.card()
 
     page.locator("#card").get_by_role("button", name=re.compile("Look at it again")).click()
-    page.wait_for_selector("#beside:not([hidden])", timeout=1e3 * PATIENCE)
-    lesson.until(lambda: not page.inner_text("#film-told").startswith("0.0"), "the film runs")
+    lesson.looks_half_a_second_before_a_step_was_done(steps=1)
     axe_is_content(page)
-    duration = float(page.get_attribute("#film-time", "max"))
-    share = page.locator("#film-ticks .step").evaluate_all(
-        "all => all.map((each) => parseFloat(each.style.left))"
-    )
-    assert len(share) == 1
-    done = 0.01 * share[0] * duration
-    page.locator("#film-time").fill(f"{0.04 * round((done - 0.5) / 0.04):.2f}")
-    lesson.until(
-        lambda: "touching" in page.inner_text("#bars"), "half a second before it was done the tip pressed"
-    )
-    both = [page.locator(each).screenshot() for each in ("#canvas", "#beside-canvas")]
-    assert both[0] != both[1]
-    page.locator("#film-close").click()
-    assert not page.locator("#beside").is_visible()
-    lesson.until(lambda: "free" in page.inner_text("#bars"), "the live tissue is there again")
+    lesson.closes_the_film()
 
 
 @pytest.mark.parametrize(
-    "lesson", [script("iwer", "build", "iwer.min.js") + ";" + HEADSET], indirect=True, ids=["headset"]
+    "lesson", [script("iwer", "build", "iwer.min.js") + ";" + HEADSET + BOARD], indirect=True, ids=["headset"]
 )
-def test_a_task_is_done_with_an_emulated_headset(lesson):
-    """Choose on the page, enter the headset, do the first step with a controller, leave, read the card."""
+def test_a_day_with_an_emulated_headset(lesson):
+    """Choose on the page, do the task in the headset and read the board; out of it card, replay and history."""
     page, watcher = lesson.page, lesson.watcher
+    page.set_viewport_size({"width": 480, "height": 400})  # of the eyes, too: they are drawn by software
     lesson.choose("palpate", who="Grace")
     page.get_by_role("button", name="Enter the headset").click()
-    before = watcher.guiding["attempt"] if watcher.guiding else 0
     lesson.until(lambda: all(each.touch for each in watcher.look().instruments), "both controllers are there")
-    page.evaluate(SQUEEZE, 1.0)
-    lesson.until(lambda: watcher.guiding is not None and watcher.guiding["attempt"] > before, "it begins")
-    page.evaluate(SQUEEZE, 0.0)
-    number = watcher.guiding["attempt"]
-    shape = watcher.hello["instruments"][1]
-    port, length = np.array(shape["port_m"]), shape["length_m"]
-    place = np.array([0.15, 1.45, -0.3])
-    end = time.monotonic() + PATIENCE
-    while watcher.guiding["step"] == 0 and watcher.guiding["attempt"] == number:
-        assert time.monotonic() < end, watcher.guiding
-        state = watcher.look().instruments[1]
-        tip, force = np.array(state.tip), float(np.linalg.norm(state.force))
-        mark = watcher.guiding["marks"][0]
-        away = np.hypot(*(tip[:2] - mark["place_m"]))
-        deeper = (0.035 - force) / 350 if force else -2e-4
-        z = tip[2] + (np.clip(-deeper, -6e-5, 2e-4) if away < 2e-3 and tip[2] < 4e-4 else -1)
-        to = np.array([*mark["place_m"], z if z > -0.5 else (3e-4 if away < 2e-3 else 6e-3)])
-        handle = to + length * (port - to) / np.linalg.norm(port - to)
-        now = tip - length * np.array(state.direction)
-        step = handle - now
-        step *= min(1.0, 0.01 / max(np.linalg.norm(step), 1e-9))
-        place += [step[0], step[2], -step[1]]
-        page.evaluate("([x, y, z]) => xrDevice.controllers.right.position.set(x, y, z)", place.tolist())
-        page.wait_for_timeout(60)
-    page.locator("#headset").dispatch_event(
-        "click"
-    )  # the headset lies over the page, as the emulator shows it
-    lesson.button("End the attempt").click()
-    assert "not passed" in lesson.card()
-    assert "Go on to the end" in page.inner_text("#card .advice")
+    hands = ByControllers(page, watcher)
+    assert "Palpate six points, level 1" in hands.board()
+    assert "Squeeze both triggers to begin." in hands.board()
+    page.evaluate(LEANS)
+    lesson.until(lambda: amber(page) > 100, "the board is seen")
+    done = None
+    for _ in range(TRIES):
+        number = lesson.squeezes(hands)
+        said = hands.do(number, 2 * task("palpate").marking.cutoff)
+        assert said["state"] in {"marking", "finished"}
+        lesson.until(
+            lambda: "Squeeze both triggers to try again." in hands.board(), "the board tells the score"
+        )
+        done = re.search(r"(\d+) of 100, passed (.+) Squeeze both", hands.board())
+        if done:
+            break
+    assert done, hands.board()
+    lesson.until(hands.raised, "both tips are out of the tissue, where they stay")
+    page.evaluate("xrDevice.activeSession.end()")  # by the headset's own button
+    lesson.until(lambda: lesson.button("Enter the headset").count() == 1, "the headset is left")
+
+    page.set_viewport_size({"width": 900, "height": 560})
+    assert lesson.card().startswith(f"{done[1]} of 100, passed")
+    assert page.inner_text("#card .advice li >> nth=0") in done[2]
     lesson.figures_are_drawn("#card")
+    lesson.button("Look at it again, beside the expert").click()
+    lesson.looks_half_a_second_before_a_step_was_done(steps=6)
+    lesson.closes_the_film()
+
+    lesson.button("History").click()
+    page.wait_for_selector("#history[open]")
+    lesson.figures_are_drawn("#history")
+    row = page.locator(
+        "#history-list tr", has=page.get_by_label(f"Score card of attempt {number}", exact=True)
+    )
+    assert f"{done[1]}, passed" in row.inner_text()
+    assert page.request.get(f"{page.url}api/attempts/{number}").json()["device"] == "headset"

@@ -82,6 +82,13 @@ def test_an_interrupted_attempt_keeps_what_there_is_and_why(records):
     assert records.attempt(number).mistakes == ()
 
 
+def test_what_moved_the_instruments_may_turn_out_at_the_end(records):
+    finished, interrupted = begin(records), begin(records)
+    records.finish(finished, card(), device="headset")
+    records.interrupt(interrupted, "the page was closed", device="headset")
+    assert [row.device for row in records.attempts()] == ["headset", "headset"]
+
+
 def test_an_attempt_that_is_closed_takes_nothing_more(records):
     number = attempt(records)
     for change in (

@@ -15,6 +15,7 @@ from trocar.training.strip import recorded
 from trocar.training.tasks import catalogue
 from trocar.web.lessons import Lessons
 from trocar.web.serve import serving
+from trocar.web.source import Pose
 from trocar.web.stage import set_stage
 from trocar.web.trainer import Trainer
 from trocar.web.wire import decode_frame
@@ -183,15 +184,42 @@ def test_one_attempt_at_a_time_and_it_can_be_given_up(school):
     assert visitor.ask(f"/api/attempts/{number}/end", {})[0] == 422
 
 
+def test_the_record_says_whether_a_headset_moved_the_instruments(school):
+    visitor, trainer, _ = school
+    handle = trainer.hello().instruments[1].handle_m
+
+    def hold(tracked):
+        trainer.pose(
+            1, Pose(instrument=1, sequence=1, present=True, handle=handle, roll=0.0, jaw=1.0, tracked=tracked)
+        )
+
+    for entering, device in ((False, "web"), (True, "headset")):
+        hold(tracked=False)
+        number = begin(visitor)[1]["id"]
+        assert stands(visitor, number)["device"] == "web"
+        hold(tracked=entering)
+        until(lambda number=number: stands(visitor, number)["duration_s"] > 0.4, PATIENCE)
+        hold(tracked=False)  # whoever leaves the headset before the end was in it all the same
+        visitor.ask(f"/api/attempts/{number}/end", {})
+        until(lambda number=number: stands(visitor, number)["status"] == "finished", PATIENCE)
+        assert stands(visitor, number)["device"] == device
+    hold(tracked=True)
+    number = begin(visitor)[1]["id"]
+    assert stands(visitor, number)["device"] == "headset"
+    visitor.ask(f"/api/attempts/{number}/end", {})
+    until(lambda: stands(visitor, number)["status"] != "running", PATIENCE)
+    hold(tracked=False)
+
+
 def test_what_cannot_be_put_on_record_is_said_and_tried_until_it_can(school, monkeypatch):
     visitor, trainer, lessons = school
     full = threading.Event()
     kept = lessons.records.finish
 
-    def finish(number, card):
+    def finish(number, card, **more):
         if full.is_set():
             raise RecordsFullError("the records: the disk is full")
-        kept(number, card)
+        kept(number, card, **more)
 
     monkeypatch.setattr(lessons.records, "finish", finish)
     monkeypatch.setattr("trocar.web.lessons._TRIED_AGAIN", 0.1)

@@ -44,7 +44,7 @@ MALFORMED = {
     "two poses": GOOD + GOOD,
     "another magic": b"TRO1" + GOOD[4:],
     "a third instrument": GOOD[:8] + struct.pack("<I", 2) + GOOD[12:],
-    "unknown flags": GOOD[:12] + struct.pack("<I", 3) + GOOD[16:],
+    "unknown flags": GOOD[:12] + struct.pack("<I", 4) + GOOD[16:],
 }
 OUT_OF_RANGE = {
     "NaN": spoiled(handle=(float("nan"), 0.0, 0.1)),

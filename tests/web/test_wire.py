@@ -109,13 +109,21 @@ def test_a_pose_has_the_bytes_of_the_contract():
     assert decode_pose(golden, BLOCK) == POSE
 
 
+@pytest.mark.parametrize(("present", "tracked"), [(False, False), (True, False), (False, True), (True, True)])
+def test_a_pose_says_whether_a_headset_holds_it(present, tracked):
+    pose = replace(POSE, present=present, tracked=tracked)
+    message = encode_pose(pose)
+    assert struct.unpack_from("<I", message, 12) == (present + 2 * tracked,)
+    assert decode_pose(message, BLOCK) == pose
+
+
 @pytest.mark.parametrize(
     ("place", "form", "value", "word"),
     [
         (0, "<I", 1, "magic"),
         (8, "<I", 2, "instrument"),
         (8, "<I", 2**32 - 1, "instrument"),
-        (12, "<I", 2, "flags"),
+        (12, "<I", 4, "flags"),
     ],
 )
 def test_a_malformed_pose_is_refused(place, form, value, word):

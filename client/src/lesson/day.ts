@@ -3,8 +3,9 @@
  * see how practice goes. What it needs of the rest of the page is in `Stage`.
  */
 
+import type { Line } from "../scene/lettering";
 import type { Asked, Guiding, Hello } from "../wire/messages";
-import { type Attempt, type AttemptRow, get, post, type ScoreCard, type TaskLevel, type Trainee } from "../wire/rest";
+import { type Attempt, type AttemptRow, get, post, type TaskLevel, type Trainee } from "../wire/rest";
 import { CardView } from "./card";
 import { type Choice, Choose } from "./choose";
 import { Film } from "./film";
@@ -12,6 +13,7 @@ import { HistoryView } from "./history";
 import { Questions } from "./questions";
 import type { Replay } from "./replay";
 import { type Offer, TaskPanel } from "./task-panel";
+import { beforehand, ready, result, underWay } from "./told";
 
 const FREE = "Free practice: press, slide on and lift the tissue, as long as you like. Nothing is recorded.";
 const NO_LESSONS = "Free practice: press, slide on and lift the tissue. There is no task to follow.";
@@ -21,8 +23,8 @@ export interface Stage {
   readonly replay: Replay;
   /** Show what a step asks for, in the scene and on the bars; null asks for nothing. */
   ask(asked: Asked | null): void;
-  /** Write on the board that eyes in a headset see: what to do, what would bring it nearer, how it stands. */
-  write(lines: readonly [string, string, string]): void;
+  /** Write on the board that eyes in a headset see. */
+  write(lines: readonly Line[]): void;
   /** Say a sentence at the top of the page. */
   say(level: "info" | "warning", words: string): void;
   /** Put the hands where they begin and bring the keyboard to the picture. */
@@ -63,13 +65,13 @@ export class Day {
     if (guiding.attempt !== this.attempt) return;
     this.panel.update(guiding);
     this.stage.ask(guiding.state === "running" ? guiding : null);
-    this.stage.write([guiding.words || "The attempt is over.", guiding.hint, standing(guiding)]);
+    this.stage.write(underWay(guiding));
     if (guiding.state === "running" || guiding.state === "marking") return;
     this.attempt = 0;
     if (guiding.state === "finished") void this.safely(() => this.open(guiding.attempt));
     else {
-      this.stage.say("warning", `The attempt was interrupted: ${guiding.reason}.`);
       if (this.chosen) this.brief(this.chosen);
+      this.fail(new Error(`The attempt was interrupted: ${guiding.reason}.`));
     }
   }
 
@@ -102,7 +104,7 @@ export class Day {
 
   private free(): void {
     this.chosen = null;
-    this.stage.write(["", "", ""]);
+    this.stage.write([]);
     if (!this.offered) this.panel.free(NO_LESSONS, []);
     else this.panel.free(FREE, [["Choose a task", () => void this.safely(() => this.offer())]]);
   }
@@ -121,7 +123,7 @@ export class Day {
     this.stage.replay.close();
     this.chosen = choice;
     const { task, trainee } = choice;
-    this.stage.write([`${task.title}, level ${task.level}. ${task.purpose}`, "Squeeze both triggers to begin.", ""]);
+    this.stage.write(beforehand(task));
     this.panel.brief(task, trainee, [
       ["Begin", () => void this.safely(() => this.begin(choice))],
       ["Watch the expert", () => void this.safely(() => this.watch(task))],
@@ -143,6 +145,7 @@ export class Day {
     const { task, trainee } = choice;
     this.stage.replay.close();
     this.panel.begin(task, []);
+    this.stage.write(ready(task));
     this.stage.begin();
     this.card.close();
     this.beginning = true;
@@ -163,7 +166,7 @@ export class Day {
     const task = await this.taskOf(attempt);
     const choice = { trainee: attempt.trainee, task };
     this.brief(choice);
-    if (attempt.card) this.stage.write([...result(attempt.card), "Squeeze both triggers to try again."]);
+    if (attempt.card) this.stage.write(result(attempt.card, task));
     const offers: Offer[] = [
       ["Try again", () => void this.safely(() => this.begin(choice))],
       ["Look at it again, beside the expert", () => void this.safely(() => this.compare(attempt, task))],
@@ -198,18 +201,9 @@ export class Day {
     }
   }
 
+  /** Say what went wrong, on the page and, where no attempt is under way, on the board. */
   private fail(error: Error): void {
     this.stage.say("warning", error.message);
+    if (this.chosen && this.attempt === 0) this.stage.write(beforehand(this.chosen.task, error.message));
   }
-}
-
-/** The score, and what to do better first, for eyes in a headset. */
-function result(card: ScoreCard): [string, string] {
-  const verdict = `${card.score.toFixed(0)} of 100, ${card.passed ? "passed" : "not passed"}`;
-  return [card.advice[0] ?? "", verdict];
-}
-
-function standing(guiding: Guiding): string {
-  if (guiding.state !== "running") return "The attempt is being marked.";
-  return `${guiding.left_s.toFixed(0)} s left, ${guiding.mistakes} ${guiding.mistakes === 1 ? "mistake" : "mistakes"}`;
 }

@@ -1,12 +1,31 @@
-/** What to do now, written on a board behind the tissue, for eyes in a headset that do not see the page. */
+/** What to do now, or how it went, written on a board behind the tissue, for eyes in a headset that do not see the page. */
 
 import { CanvasTexture, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from "three";
 
+import { add, norm, subtract, type Vector } from "../vector";
 import type { Hello } from "../wire/messages";
+import { hollow } from "./cavity";
+import { letter, type Line } from "./lettering";
 
-const WIDTH = 0.16; // [m]
+const WIDTH = 0.19; // where the cavity has room for it [m]
 const ACROSS = 1024; // [pixels]
-const DOWN = 384;
+const DOWN = 512;
+const BEHIND = 0.025; // its middle, the tissue [m]
+const ABOVE = 0.006; // its lower edge over the tissue [m]
+const LEANS = (70 * Math.PI) / 180; // back, towards the eyes; upright is 90 degrees
+const SHARP = 8; // samples along a slanted view
+
+/** Return the board's width and middle [m]: as large as it may be without its corners in the cavity's wall. */
+export function placed(hello: Hello): { readonly width: number; readonly middle: Vector; readonly corner: Vector } {
+  const [a, b] = hello.tissue.size_m;
+  const { centre, free } = hollow(hello);
+  for (let width = WIDTH; ; width *= 0.98) {
+    const up = (0.5 * width * DOWN) / ACROSS;
+    const middle: Vector = [a / 2, b + BEHIND, ABOVE + up * Math.sin(LEANS)];
+    const corner = add(middle, [width / 2, up * Math.cos(LEANS), up * Math.sin(LEANS)]);
+    if (norm(subtract(corner, centre)) < free || width < 0.5 * WIDTH) return { width, middle, corner };
+  }
+}
 
 export class Board {
   readonly mesh: Mesh;
@@ -19,15 +38,17 @@ export class Board {
     this.canvas.height = DOWN;
     this.texture = new CanvasTexture(this.canvas);
     this.texture.colorSpace = SRGBColorSpace;
+    this.texture.anisotropy = SHARP;
     const material = new MeshBasicMaterial({ map: this.texture, toneMapped: false });
     this.mesh = new Mesh(new PlaneGeometry(WIDTH, (WIDTH * DOWN) / ACROSS), material);
-    this.mesh.rotation.x = (70 * Math.PI) / 180; // it leans back, towards the eyes
+    this.mesh.rotation.x = LEANS;
     this.mesh.visible = false;
   }
 
   greet(hello: Hello): void {
-    const [a, b] = hello.tissue.size_m;
-    this.mesh.position.set(a / 2, b + 0.035, 0.045);
+    const { width, middle } = placed(hello);
+    this.mesh.scale.setScalar(width / WIDTH);
+    this.mesh.position.set(...middle);
   }
 
   /** Show it, or not. */
@@ -35,38 +56,24 @@ export class Board {
     this.mesh.visible = shown && this.written !== "";
   }
 
-  /** Write what to do, what would bring it nearer and how it stands; three empty lines leave it empty. */
-  write(lines: readonly [string, string, string]): void {
-    const text = lines.join("\n").trim();
+  /** Write these lines in place of what was there; none leave it empty. */
+  write(lines: readonly Line[]): void {
+    const text = JSON.stringify(lines);
     if (text === this.written) return;
-    this.written = text;
+    this.written = lines.length > 0 ? text : "";
     const paper = this.canvas.getContext("2d");
     if (!paper) return;
     paper.fillStyle = "#14191e";
     paper.fillRect(0, 0, ACROSS, DOWN);
-    paper.fillStyle = "#e8edf1";
-    paper.font = "40px system-ui, sans-serif";
-    let down = 64;
-    for (const line of wrapped(paper, lines[0], ACROSS - 64)) {
-      paper.fillText(line, 32, down);
-      down += 50;
+    const measure = (font: string, words: string): number => {
+      paper.font = font;
+      return paper.measureText(words).width;
+    };
+    for (const piece of letter(lines, ACROSS, DOWN, measure)) {
+      paper.font = piece.font;
+      paper.fillStyle = piece.colour;
+      paper.fillText(piece.text, piece.right, piece.down);
     }
-    paper.fillStyle = "#ffb020";
-    paper.font = "600 54px system-ui, sans-serif";
-    paper.fillText(lines[1], 32, Math.max(down + 30, 260));
-    paper.fillStyle = "#b3c0ca";
-    paper.font = "36px system-ui, sans-serif";
-    paper.fillText(lines[2], 32, DOWN - 30);
     this.texture.needsUpdate = true;
   }
-}
-
-function wrapped(paper: CanvasRenderingContext2D, text: string, width: number): string[] {
-  const lines: string[] = [""];
-  for (const word of text.split(" ")) {
-    const longer = `${lines.at(-1)} ${word}`.trim();
-    if (paper.measureText(longer).width <= width) lines[lines.length - 1] = longer;
-    else lines.push(word);
-  }
-  return lines;
 }

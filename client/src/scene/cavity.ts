@@ -16,13 +16,21 @@ const RUFFLE = 0.006; // of the wall [m]
 /** Make bed and wall; the wall passes through the ports, as an abdomen's does. */
 export function makeCavity(hello: Hello, maps: Maps, shade: ContactShade): Group {
   const [a, b] = hello.tissue.size_m;
+  const { centre, radius } = hollow(hello);
+  const depth = -centre[2];
+  const group = new Group();
+  group.add(makeBed(a, b, depth, radius, maps, shade), makeWall(centre, radius * 1.02, maps, shade));
+  return group;
+}
+
+/** The sphere that the wall is about, as far as its ruffles leave it free; all in metres. */
+export function hollow(hello: Hello): { readonly centre: Vector; readonly radius: number; readonly free: number } {
+  const [a, b] = hello.tissue.size_m;
   const depth = hello.tissue.layers.reduce((sum, layer) => sum + layer.thickness_m, 0);
   const centre: Vector = [a / 2, b / 2, -depth];
   const ports = [...hello.instruments.map((shape) => shape.port_m), hello.camera.port_m];
   const radius = Math.max(...ports.map((port) => norm(subtract(port, centre))), 0.75 * Math.hypot(a, b));
-  const group = new Group();
-  group.add(makeBed(a, b, depth, radius, maps, shade), makeWall(centre, radius * 1.02, maps, shade));
-  return group;
+  return { centre, radius, free: radius - RUFFLE };
 }
 
 function makeBed(a: number, b: number, depth: number, radius: number, maps: Maps, shade: ContactShade): Mesh {

@@ -10,6 +10,7 @@ import { Board } from "./board";
 import { makeCavity } from "./cavity";
 import { ContactShade } from "./contact-shade";
 import { Instrument } from "./instrument";
+import type { Line } from "./lettering";
 import { Lamp } from "./lamp";
 import { Marks } from "./marks";
 import { makePort } from "./port";
@@ -53,7 +54,7 @@ export class Theatre {
   }
 
   /** Write on the board that eyes in a headset see. */
-  write(lines: readonly [string, string, string]): void {
+  write(lines: readonly Line[]): void {
     this.board.write(lines);
   }
 

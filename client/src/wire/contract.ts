@@ -143,6 +143,12 @@ export const Touch = {
   holding: 4,
 } as const;
 
+/** Bits of a pose's flags. */
+export const Held = {
+  present: 1,
+  tracked: 2,
+} as const;
+
 /** Byte offsets in a frame's header, little-endian; `bytes` is its length. */
 export const HEADER = {
   magic: 0,

@@ -44,12 +44,12 @@ export class Link {
     socket.onclose = (event: CloseEvent) => this.lost(socket, event.reason);
   }
 
-  /** Send a pose if it is time to. */
-  pose(instrument: 0 | 1, pose: HandlePose, now: number): void {
+  /** Send a pose if it is time to. @param tracked whether a headset's controller is the handle. */
+  pose(instrument: 0 | 1, pose: HandlePose, now: number, tracked = false): void {
     const socket = this.socket;
     if (!this.greeted || !socket || socket.bufferedAmount > MOST_WAITING) return;
     const sequence = this.sending[instrument].due(pose, now);
-    if (sequence !== null) socket.send(writePose(instrument, sequence, pose));
+    if (sequence !== null) socket.send(writePose(instrument, sequence, pose, tracked));
   }
 
   /** Put the tissue back to rest. */

@@ -12,6 +12,12 @@ describe("a pose", () => {
     expect(hex(writePose(1, 258, POSED))).toBe(POSE);
   });
 
+  it("says whether a headset's controller is the handle", () => {
+    const flags = (pose: HandlePose, tracked: boolean): number =>
+      new DataView(writePose(0, 1, pose, tracked)).getUint32(12, true);
+    expect([flags(POSED, false), flags(POSED, true), flags({ ...POSED, present: false }, true)]).toEqual([1, 3, 2]);
+  });
+
   it("never opens a jaw wider than open", () => {
     const view = new DataView(writePose(0, 1, { ...POSED, jaw: 1.25 }));
     expect(view.getFloat32(44, true)).toBe(1);

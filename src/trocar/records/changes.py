@@ -134,7 +134,7 @@ def add(session: Session, number: int, data: bytes, ticks: int) -> None:
     )
 
 
-def finish(session: Session, number: int, card: Card) -> None:
+def finish(session: Session, number: int, card: Card, device: str | None = None) -> None:
     """Close an attempt that runs with its score card; metrics that do not exist are left out."""
     row = reading.attempt(session, number).row
     if (row.task, row.level) != (card.task, card.level):
@@ -150,6 +150,7 @@ def finish(session: Session, number: int, card: Card) -> None:
         completed=card.completed,
         duration_s=card.duration,
         card=json.dumps(shown, allow_nan=False),
+        **_moved_by(device),
     )
     metrics = shown["metrics"]
     assert isinstance(metrics, dict)
@@ -157,6 +158,15 @@ def finish(session: Session, number: int, card: Card) -> None:
         MetricTable(attempt_id=number, name=name, value=each["value"], unit=each["unit"])
         for name, each in metrics.items()
     )
+
+
+def interrupt(session: Session, number: int, reason: str, device: str | None = None) -> None:
+    """Close an attempt that runs and will not be finished."""
+    change(session, number, status=Status.INTERRUPTED.value, reason=reason, **_moved_by(device))
+
+
+def _moved_by(device: str | None) -> dict[str, object]:
+    return {} if device is None else {"device": device}
 
 
 def answer(

@@ -163,25 +163,35 @@ class Records:
         with self._writing() as session:
             changes.add(session, attempt, data, ticks)
 
-    def finish(self, attempt: int, card: Card) -> None:
+    def finish(self, attempt: int, card: Card, *, device: str | None = None) -> None:
         """Close an attempt with its score card.
+
+        Args:
+            attempt: number of one that runs.
+            card: of the same task and level.
+            device: what moved the instruments, where that is another than was said at the beginning.
 
         Raises:
             InputError: the attempt does not run, or the card is of another task or level.
             RecordsError: nothing can be written; the attempt still runs.
         """
         with self._writing() as session:
-            changes.finish(session, attempt, card)
+            changes.finish(session, attempt, card, device)
 
-    def interrupt(self, attempt: int, reason: str) -> None:
+    def interrupt(self, attempt: int, reason: str, *, device: str | None = None) -> None:
         """Close an attempt that will not be finished; what was added to it stays.
+
+        Args:
+            attempt: number of one that runs.
+            reason: why, in words.
+            device: as in `finish`.
 
         Raises:
             InputError: the attempt does not run.
             RecordsError: nothing can be written.
         """
         with self._writing() as session:
-            changes.change(session, attempt, status=Status.INTERRUPTED.value, reason=reason)
+            changes.interrupt(session, attempt, reason, device)
 
     def answer(self, trainee: Trainee, attempt: int | None, group: str, values: Mapping[str, int]) -> None:
         """Keep the answers a trainee gave together.

@@ -24,7 +24,7 @@ from trocar.training.tasks.task import Task
 from trocar.web.asking import asking
 from trocar.web.messages import Guiding, State
 from trocar.web.stage import stage_of
-from trocar.web.trainer import Trainer
+from trocar.web.trainer import HEADSET, Trainer
 
 LOOK_EVERY = 0.04  # [s]
 _TRIED_AGAIN = 2.0  # [s] between tries to put an attempt on record
@@ -132,8 +132,11 @@ class Lessons:
             self._trainer.guide(_guiding(number, live.task, guidance, state, reason))
 
         before: Guidance | None = None
+        device = self._trainer.device_name
         while guidance.ending is Ending.NOT_YET and not stop.wait(LOOK_EVERY):
             guidance = live.look()
+            if device != HEADSET:  # somebody may enter a headset, or leave it, meanwhile
+                device = self._trainer.device_name
             if guidance.time - told >= _TOLD_EVERY or before is None or _differ(before, guidance):
                 told, before = guidance.time, guidance
                 tell("running")
@@ -141,7 +144,7 @@ class Lessons:
             live.give_up()  # the last of it is kept; it is not marked, for nobody wanted it to end
         if guidance.ending in MARKED:
             tell("marking")
-        state, reason = self._close(number, live, guidance, tell)
+        state, reason = self._close(number, live, guidance, device, tell)
         closed.set()
         tell(state, reason)
         self._closing.wait(_SHOWN_AFTERWARDS)
@@ -149,7 +152,12 @@ class Lessons:
             self._trainer.guide(None)
 
     def _close(
-        self, number: int, live: LiveAttempt, guidance: Guidance, tell: Callable[[State, str], None]
+        self,
+        number: int,
+        live: LiveAttempt,
+        guidance: Guidance,
+        device: str,
+        tell: Callable[[State, str], None],
     ) -> tuple[State, str]:
         """Mark an attempt that is over, or say why it cannot be; return how it stands and why.
 
@@ -165,23 +173,25 @@ class Lessons:
             except Exception:  # noqa: BLE001 - a fault of ours must not leave the page waiting
                 _LOG.exception("attempt %d could not be marked", number)
                 reason = "it could not be marked"
-        while (trouble := self._kept(number, live, card, reason)) is not None:
+        while (trouble := self._kept(number, live, card, reason, device)) is not None:
             tell("marking", trouble)
             if self._closing.wait(_TRIED_AGAIN):
                 _LOG.warning("attempt %d: %s", number, trouble)
                 return "interrupted", trouble
         return ("interrupted" if card is None else "finished"), reason
 
-    def _kept(self, number: int, live: LiveAttempt, card: Card | None, reason: str) -> str | None:
+    def _kept(
+        self, number: int, live: LiveAttempt, card: Card | None, reason: str, device: str
+    ) -> str | None:
         """Put the end of an attempt on record; return what hinders it, if anything does."""
         trouble = live.look().trouble  # the last of the strip first
         if trouble:
             return trouble
         try:
             if card is not None:
-                self.records.finish(number, card)
+                self.records.finish(number, card, device=device)
             else:
-                self.records.interrupt(number, reason)
+                self.records.interrupt(number, reason, device=device)
         except RecordsError as error:
             return str(error)
         return None

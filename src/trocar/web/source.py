@@ -41,6 +41,13 @@ class Touch(IntFlag):
     HOLDING = 4
 
 
+class Held(IntFlag):
+    """How an instrument is held, as bits of a pose."""
+
+    PRESENT = 1
+    TRACKED = 2  # by a headset's controller
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Pose:
     """Where a client holds an instrument.
@@ -52,6 +59,7 @@ class Pose:
         handle: position of the handle [m].
         roll: angle about the shaft [rad].
         jaw: opening, 0 closed to 1 open.
+        tracked: whether a headset's controller is the handle.
     """
 
     instrument: int
@@ -60,6 +68,7 @@ class Pose:
     handle: Vector
     roll: float
     jaw: float
+    tracked: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

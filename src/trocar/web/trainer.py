@@ -24,6 +24,7 @@ from trocar.web.source import Pose, Snapshot, Status
 from trocar.web.stage import Stage
 
 SMOOTHING = 8e-3  # [s] by which instruments follow poses that come at a display's rate
+HEADSET = "headset"  # the name, in records, of hands that a headset's controllers are
 _DEVICE_PERIOD = 4e-3  # [s] between poses of a device of the trainer's own
 _TICKING = 0.5  # [s] since its last tick, at most
 _RESTARTS = 3  # of a servo that died
@@ -63,6 +64,7 @@ class Trainer:
         self._ended = threading.Event()
         self._began: float | None = None  # when the device's time began: with the first page
         self._driving: threading.Thread | None = None
+        self._tracked = [False, False]  # whether a headset's controllers hold the page's hands
         self._shown: tuple[tuple[Servo, int, int], Snapshot] | None = None
 
     def open(self) -> None:
@@ -108,8 +110,8 @@ class Trainer:
 
     @property
     def device_name(self) -> str:
-        """What moves the instruments."""
-        return self._device.name
+        """What moves the instruments now, as records name it: the page's hands are `web`, or `headset`."""
+        return HEADSET if any(self._tracked) else self._device.name
 
     def begin_device(self) -> None:
         """Let the time of a device of the trainer's own begin now."""
@@ -176,6 +178,7 @@ class Trainer:
         """Take a pose of the page's; where the trainer has a device of its own, it is none of the page's business."""
         if not self._device.steered_by_page:
             return
+        self._tracked[instrument] = pose.tracked and pose.present
         held = HandlePose(present=pose.present, handle=pose.handle, roll=pose.roll, jaw=pose.jaw)
         if isinstance(self._device, WebDevice):
             self._device.take(instrument, held)

@@ -18,7 +18,7 @@ from pydantic.json_schema import models_json_schema
 from trocar.web.closing import Closing
 from trocar.web.conversation import StreamLimits
 from trocar.web.messages import PROTOCOL, Acknowledgement, Guiding, Hello, Notice, Reset
-from trocar.web.source import Status, Touch
+from trocar.web.source import Held, Status, Touch
 from trocar.web.wire import FRAME_MAGIC, HEADER, INSTRUMENT, POSE, POSE_MAGIC, REACH
 
 _FROM_SERVER = (Hello, Guiding, Notice)
@@ -50,6 +50,7 @@ def typescript() -> str:
         _table("Closing", _members(Closing), "Codes with which the server closes the stream."),
         _table("Status", _members(Status), "Bits of a frame's status."),
         _table("Touch", _members(Touch), "Bits of an instrument's flags."),
+        _table("Held", _members(Held), "Bits of a pose's flags."),
         _layout("HEADER", HEADER, "a frame's header"),
         _layout("INSTRUMENT", INSTRUMENT, "an instrument's record in a frame"),
         _layout("POSE", POSE, "a pose"),

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from trocar.errors import InputError
 from trocar.units import MILLIMETRE
 from trocar.web.messages import TissueSize
-from trocar.web.source import InstrumentState, Pose, Snapshot, Status, Touch, Vector
+from trocar.web.source import Held, InstrumentState, Pose, Snapshot, Status, Touch, Vector
 
 FRAME_MAGIC = 0x314F5254  # "TRO1"
 POSE_MAGIC = 0x45534F50  # "POSE"
@@ -71,6 +71,7 @@ POSE = np.dtype(
 _MICROSECOND = 1e-6  # [s]
 _PLANE = np.dtype("<f2")
 _LARGEST = 2**32 - 1
+_HELD = int(Held.PRESENT | Held.TRACKED)  # every bit there is
 
 
 class RangeError(InputError):
@@ -177,7 +178,8 @@ def decode_frame(frame: bytes) -> tuple[int, Snapshot]:
 
 def encode_pose(pose: Pose) -> bytes:
     """Return a pose as a client sends it."""
-    record = (POSE_MAGIC, pose.sequence, pose.instrument, pose.present, pose.handle, pose.roll, pose.jaw)
+    flags = Held.PRESENT * pose.present | Held.TRACKED * pose.tracked
+    record = (POSE_MAGIC, pose.sequence, pose.instrument, flags, pose.handle, pose.roll, pose.jaw)
     return np.array(record, POSE).tobytes()
 
 
@@ -200,8 +202,8 @@ def decode_pose(message: bytes, block: Block) -> Pose:
     instrument, flags = int(record["instrument"]), int(record["flags"])
     if instrument > 1:
         raise InputError("pose: instrument", "0 (left) or 1 (right)", instrument)
-    if flags > 1:
-        raise InputError("pose: flags", "0 or 1 (present)", flags)
+    if flags > _HELD:
+        raise InputError("pose: flags", "1 (present) and 2 (tracked), or neither", flags)
     x, y, z = (float(value) for value in record["handle_m"])
     roll, jaw = float(record["roll_rad"]), float(record["jaw"])
     if not all(map(math.isfinite, (x, y, z))) or block.distance((x, y, z)) > REACH:
@@ -213,10 +215,11 @@ def decode_pose(message: bytes, block: Block) -> Pose:
     return Pose(
         instrument=instrument,
         sequence=int(record["sequence"]),
-        present=bool(flags),
+        present=bool(flags & Held.PRESENT),
         handle=(x, y, z),
         roll=roll,
         jaw=jaw,
+        tracked=bool(flags & Held.TRACKED),
     )
 
 
