@@ -118,6 +118,25 @@ def test_a_learning_curve(kept, capsys):
     assert "no attempt was finished; what remains: two passes in a row." in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("history", "Ana", "palpate"), "did you mean Anna?"),
+        (("history", "Anna", "palpat"), "did you mean palpate?"),
+        (("history", "Anna", "trace", "--level", "9"), "task: level: expected 1 to 3"),
+        (("export", "--csv", "kept.csv", "--trainee", "Ana"), "did you mean Anna?"),
+    ],
+)
+def test_a_name_mistyped_is_said_and_writes_nothing(kept, capsys, tmp_path, monkeypatch, arguments, said):
+    monkeypatch.chdir(tmp_path)
+    assert main(["records", "export", "--csv", "kept.csv"]) == 0
+    before = (tmp_path / "kept.csv").read_text()
+    capsys.readouterr()
+    assert main(["records", *arguments]) == 2
+    assert said in capsys.readouterr().err
+    assert (tmp_path / "kept.csv").read_text() == before
+
+
 def test_attempts_are_exported(kept, capsys, tmp_path):
     out = tmp_path / "attempts.csv"
     assert main(["records", "export", "--csv", str(out)]) == 0

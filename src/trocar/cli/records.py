@@ -79,6 +79,10 @@ def history(
     """Print a trainee's learning curve at a task: scores, the CUSUM chart, and what remains."""
     with _opened() as records:
         found = records.history(trainee_of(records, name).name, task, level)
+        if not found.rows and not records.attempts(task=task):  # of a task of one's own there are some
+            from trocar.training.tasks.catalogue import task as known_task
+
+            known_task(task, level)
     if as_json:
         _print_json(found.as_dict())
     else:
@@ -126,7 +130,8 @@ def export(
     if xapi is None and home_page is not None:
         raise typer.BadParameter("--home-page is for --xapi")
     with _opened() as records:
-        rows, metrics = records.attempts(trainee=trainee), records.metrics()
+        name = None if trainee is None else trainee_of(records, trainee).name
+        rows, metrics = records.attempts(trainee=name), records.metrics()
     if csv is not None:
         _write(csv, table(rows, metrics, pseudonymous=pseudonymous), ",".join(ABOUT), "attempt", len(rows))
         return
