@@ -45,6 +45,8 @@ class ClientFiles:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer one request; a WebSocket has no business here."""
+        if scope["type"] == "http" and scope["path"].startswith("/api/"):
+            raise HTTPException(404)  # by any method: no route of the interface took it
         answer: Response | StaticFiles = self._files
         if scope["type"] == "http" and not self._index.is_file():
             if self._files.get_path(scope) != ".":
