@@ -219,8 +219,9 @@ def test_a_trainer_that_is_gone_is_told_of_in_one_sentence_that_stays(opened):
         for _ in range(40):  # two tries to come again, at least
             ada.page.wait_for_timeout(100)
             assert ada.page.inner_text("#notice") == gone
-        assert "Nothing goes on" in panel(ada)
+        assert "The attempt does not go on." in panel(ada)
         assert "kept, as interrupted" in panel(ada)
         assert ada.page.locator("#task button").count() == 0
         assert ada.page.inner_text("#told-now") == ""
+        assert "asked" not in ada.page.inner_text("#bars")
         axe_is_content(ada.page)

@@ -19,14 +19,15 @@ import { forget, isOurs, remember, type UnderWay } from "./under-way";
 const FREE = "Free practice: press, slide on and lift the tissue, as long as you like. Nothing is recorded.";
 const NO_LESSONS = "Free practice: press, slide on and lift the tissue. There is no task to follow.";
 const NOT_SAID = "Waiting for the trainer.";
-const LOST = "Nothing goes on";
-const LOST_FREE = "The trainer does not answer. If only the connection broke, this page goes on by itself when it is there again.";
-const LOST_ATTEMPT =
-  "The trainer does not answer. If it was stopped, the attempt ended there; what was done of it is kept, as interrupted. " +
-  "Start it again with trocar train and open the address that it prints: port and token are others each time. " +
-  "If only the connection broke, this page takes the attempt up again by itself.";
-const FILMING = "The scripted expert is being filmed. That takes some seconds, and the first time on a machine a minute or more.";
-const COMPARING = "Both attempts are being computed again. That takes some seconds, and the first time on a machine a minute or more.";
+const LOST = "The trainer does not answer.";
+const START_AGAIN =
+  "Start the trainer again with trocar train and open the address that it prints: port and token are others each time. " +
+  "If only the connection broke, this page goes on by itself when it is there again.";
+const LOST_ATTEMPT = "The attempt does not go on.";
+const KEPT = "If the trainer was stopped, what was done of the attempt is kept, as interrupted. ";
+const FILMING = "The scripted expert is being filmed.";
+const COMPARING = "Both attempts are being computed again.";
+const HOW_LONG = "That takes some seconds, and the first time on a machine a minute or more.";
 
 /** What a lesson asks of the page. */
 export interface Stage {
@@ -78,11 +79,12 @@ export class Day {
   /** The connection is lost: nothing is known of what was on. */
   lose(): void {
     if (!this.settled) return;
-    this.panel.stop(LOST, this.on ? LOST_ATTEMPT : LOST_FREE);
+    if (this.on || this.beginning) this.panel.stop(LOST_ATTEMPT, KEPT + START_AGAIN);
+    else this.panel.stop(LOST, START_AGAIN);
     this.settled = false;
     this.on = null;
     this.stage.ask(null);
-    this.stage.write([["trouble", "The trainer does not answer."]]);
+    this.stage.write([["trouble", LOST]]);
   }
 
   /** Take what the trainer says of the attempt that is under way. */
@@ -263,12 +265,12 @@ export class Day {
   /** Do something that may take a minute, and say so until it is done. */
   private async wait<Kind>(words: string, act: () => Promise<Kind>): Promise<Kind> {
     this.waiting = true;
-    this.panel.wait(words);
+    this.panel.wait(words, HOW_LONG);
     try {
       return await act();
     } finally {
       this.waiting = false;
-      this.panel.wait("");
+      this.panel.wait("", "");
     }
   }
 

@@ -108,9 +108,9 @@ export class TaskPanel {
     if (focused) row.querySelector("button")?.focus();
   }
 
-  /** Say what is being computed, while nothing else can be done; an empty sentence ends it. */
-  wait(words: string): void {
-    this.waiting.show(words);
+  /** Say what is being computed and how long that takes, while nothing else can be done; empty words end it. */
+  wait(words: string, howLong: string): void {
+    this.waiting.show(`${words} ${howLong}`.trim());
     say(this.now, words);
     for (const button of this.offers.querySelectorAll("button")) button.disabled = words !== "";
   }
