@@ -218,7 +218,10 @@ export class Day {
     try {
       const row = await post<AttemptRow>("/api/attempts", begun);
       remember(begun, row.id);
+      if (!this.settled) return; // the connection was lost meanwhile; with the next one it is taken up
       this.on = { number: row.id, isOurs: true, whose };
+      this.panel.begin(task, whose, []);
+      this.offerEnd(this.on);
     } catch (error) {
       forget();
       this.brief(choice);
@@ -226,7 +229,6 @@ export class Day {
     } finally {
       this.beginning = false;
     }
-    this.offerEnd(this.on);
   }
 
   private async open(number: number): Promise<void> {
