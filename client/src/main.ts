@@ -40,8 +40,12 @@ function start(): void {
         day.greet(hello);
       },
       guiding: (guiding) => day.take(guiding),
+      settled: () => day.settle(),
       notice: (notice) => panel.notices.take(notice),
-      connection: (state, reason) => panel.notices.connected(state, reason),
+      connection: (state, reason) => {
+        panel.notices.connected(state, reason);
+        if (state === "lost" || state === "refused") day.lose();
+      },
     },
     () => new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/live`),
   );

@@ -197,6 +197,10 @@ def test_axe_finds_nothing_and_nothing_runs_out(browser, size):
         picture = page.locator("#picture").bounding_box()
         assert picture["width"] == pytest.approx(picture["height"], abs=1)
         assert picture["width"] > 0.8 * min(size[0], 0.9 * size[1])
+        heights = page.locator("#keys-short kbd:first-child").evaluate_all(
+            "all => all.map((each) => [each.offsetHeight, each.parentElement.offsetHeight])"
+        )
+        assert all(line <= 2 * key for key, line in heights)  # no key stands apart from what it does
         axe_is_content(page)
         page.get_by_role("button", name="Keys and help").click()
         assert page.get_by_role("dialog", name="Keys and help").is_visible()

@@ -12,6 +12,7 @@ from trocar.records.rows import Status
 from trocar.records.store import Records
 from trocar.records.trouble import RecordsError
 from trocar.training.metrics.measures import MEASURES
+from trocar.training.players import Skill
 
 
 def begin(records, name="Anna", task="palpate", level=1):
@@ -29,11 +30,24 @@ def test_a_trainee_is_known_by_name(records):
     assert [(one.name, one.attempts) for one in records.trainees()] == [("Anna", 1), ("Zoë", 0)]
 
 
-@pytest.mark.parametrize("name", ["", "  ", "x" * 81, "a\nb", "a\tb", "a\0b"])
+@pytest.mark.parametrize("name", ["", "  ", "x" * 81, "a\nb", "a\tb", "a\0b", "a\u200bb", "a\u202eb"])
 def test_a_name_that_cannot_be_shown_is_refused(records, name):
     with pytest.raises(InputError, match="trainee: name"):
         records.trainee(name)
     assert records.trainees() == []
+
+
+@pytest.mark.parametrize("skill", list(Skill))
+def test_a_program_has_its_name_for_itself(records, skill):
+    name = f"scripted {skill}"
+    assert records.scripted_trainee(skill).name == name
+    for taken in (name, f"  {name.title()} ", name.replace(" ", "  ")):
+        with pytest.raises(InputError, match="programs that do tasks are called so"):
+            records.trainee(taken)
+    records.trainee("Ada")
+    with pytest.raises(InputError, match="programs that do tasks are called so"):
+        records.rename("Ada", name)
+    assert records.trainee(f"not {name}").name == f"not {name}"
 
 
 def test_an_attempt_from_beginning_to_end(records):

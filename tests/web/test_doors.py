@@ -162,6 +162,17 @@ def test_no_path_leads_out_of_the_client(visitor, path):
     assert "secret" not in answer["body"]
 
 
+@pytest.mark.parametrize("path", ["/", "/?token=guess", "/api/tasks"])
+def test_a_reader_is_told_where_the_right_address_is(visitor, path):
+    answer = visitor.get(path, {"Accept": "text/html,application/xhtml+xml,*/*;q=0.8"})
+    assert (answer["status"], answer["content-type"]) == (401, "text/html; charset=utf-8")
+    assert "<code>trocar train</code>" in answer["body"]
+    assert 'name="color-scheme" content="dark"' in answer["body"]
+    assert answer["content-security-policy"] == CONTENT_SECURITY_POLICY
+    assert "guess" not in answer["body"]
+    assert visitor.get(path)["content-type"] == "text/plain; charset=utf-8"
+
+
 def test_the_token_is_exchanged_for_a_cookie_that_is_not_the_token(visitor):
     token = visitor.target.partition("token=")[2]
     answers = [visitor.get(visitor.target) for _ in range(2)]

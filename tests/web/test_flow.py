@@ -7,6 +7,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from trocar.web.conversation import Allowance, StreamLimits
+from trocar.web.messages import Guiding
 from trocar.web.wire import decode_frame, encode_pose
 from web.scripted_source import HANDLES, HELLO, rest_pose
 from web.visitor import Visitor, served, until
@@ -41,6 +42,27 @@ def test_the_server_speaks_first_and_says_what_there_is(guest):
             "steered_by",
         }
     assert json.loads(guest.get_inside("/api/hello")["body"]) == hello
+
+
+def test_a_page_that_comes_during_an_attempt_is_told_of_it_before_the_first_frame(guest, source):
+    source.guidance = Guiding(
+        attempt=7,
+        state="running",
+        step=0,
+        words="Press.",
+        marks=(),
+        least_n=(0.0, 0.0),
+        most_n=(0.0, 0.0),
+        hint="Down.",
+        mistakes=0,
+        mistake="",
+        time_s=1.0,
+        left_s=2.0,
+        reason="",
+    )
+    with guest.live() as (stream, _):
+        assert json.loads(stream.recv(timeout=5))["attempt"] == 7
+        assert frame(stream)[0] == 1
 
 
 def test_two_frames_come_and_no_third_before_one_is_acknowledged(guest):

@@ -180,7 +180,7 @@ def test_one_attempt_at_a_time_and_it_can_be_given_up(school):
     card = stands(visitor, number)["card"]
     assert not card["completed"]
     assert card["score"] == 0.0
-    assert "ended at step 1" in card["advice"][0]
+    assert "What was left: " + first_step(3).steps[0].words in card["advice"][0]
     assert visitor.ask(f"/api/attempts/{number}/end", {})[0] == 422
 
 
@@ -265,6 +265,9 @@ def test_a_task_with_ports_of_its_own_changes_the_stage_and_the_page_is_greeted_
         ("/api/attempts", {"trainee": "Ada", "task": "palpate", "level": "1"}, 422, "level: "),
         ("/api/attempts", {"trainee": "  ", "task": "palpate"}, 422, "name"),
         ("/api/attempts", {"trainee": "Ada", "task": "palpate", "extra": 1}, 422, "extra"),
+        ("/api/attempts", {"trainee": "Ada"}, 422, "task: it is missing; /api/openapi.json tells"),
+        ("/api/attempts", {"trainee": "a\u200bb", "task": "palpate"}, 422, "characters that can be seen"),
+        ("/api/attempts", {"trainee": "Scripted expert", "task": "palpate"}, 422, "programs"),
         ("/api/attempts", b"{", 422, "json"),
         ("/api/attempts/99999/end", {}, 422, "under way"),
         ("/api/trainees", {"name": "x" * 500}, 422, "name"),
@@ -281,6 +284,17 @@ def test_what_cannot_be_is_refused_in_a_sentence(school, path, body, status, wor
 def test_what_is_not_there_is_not_found(school):
     assert school[0].ask("/api/attempts/99999")[0] == 404
     assert school[0].ask("/api/attempts/99999/film")[0] == 404
+
+
+@pytest.mark.parametrize("body", [None, {}])
+def test_a_path_that_there_is_not_answers_with_a_sentence(school, body):
+    told = {"detail": "/api/atempts: there is nothing here; /api/openapi.json tells what is expected"}
+    assert school[0].ask("/api/atempts", body) == (404, told)
+
+
+def test_a_path_that_takes_something_else_says_what(school):
+    told = {"detail": "/api/tasks: expected GET, got POST; /api/openapi.json tells what is expected"}
+    assert school[0].ask("/api/tasks", {}) == (405, told)
 
 
 def test_the_questionnaire_is_asked_and_kept(school):

@@ -2,13 +2,16 @@
 
 import { byId, make } from "../panel/element";
 import type { Attempt, ScoreCard, TaskLevel } from "../wire/rest";
+import { figure } from "./figure";
 import type { Offer } from "./task-panel";
+import { shown } from "./value";
 
 const FIGURES = [
-  ["time", "Where the time went, step by step, beside the scripted expert"],
-  ["forces", "The force on each tip over time, and what the steps asked for"],
-  ["paths", "The ways of both tips over the tissue, seen from above"],
+  ["time", 249, "Where the time went, step by step, beside the scripted expert"],
+  ["forces", 425, "The force on each tip over time, and what the steps asked for"],
+  ["paths", 470, "The ways of both tips over the tissue, seen from above"],
 ] as const;
+const NAMED: Readonly<Record<string, string>> = { errors: "mistakes" }; // as the rest of the page calls them
 const FIRST = ["time", "errors", "peak_force", "time_over_limit"]; // the others are folded away
 
 export class CardView {
@@ -31,7 +34,7 @@ export class CardView {
       make("h3", "", "What to do better"),
       advice,
       this.buttons(offers),
-      ...FIGURES.map(([name, alt]) => figure(`/api/attempts/${attempt.id}/figures/${name}.svg`, alt)),
+      ...FIGURES.map(([name, height, alt]) => figure(`/api/attempts/${attempt.id}/figures/${name}.svg`, height, alt)),
       make("h3", "", "In figures"),
       make("p", "note", skipped(card)),
       metrics(card, (name) => FIRST.includes(name)),
@@ -60,16 +63,6 @@ export class CardView {
   }
 }
 
-/** A picture that the trainer draws. */
-export function figure(source: string, alt: string): HTMLElement {
-  const made = make("figure");
-  const image = make("img");
-  image.src = source;
-  image.alt = alt;
-  made.append(image);
-  return made;
-}
-
 function skipped(card: ScoreCard): string {
   const time = card.skipped_s;
   if (time === 0) return "The tissue kept the clock's time throughout.";
@@ -91,9 +84,9 @@ function metrics(card: ScoreCard, wanted: (name: string) => boolean): HTMLTableE
   const body = table.createTBody();
   for (const [name, { value, unit }] of Object.entries(card.metrics).filter(([each]) => wanted(each))) {
     const row = body.insertRow();
-    const head = make("th", "", name.replaceAll("_", " "));
+    const head = make("th", "", NAMED[name] ?? name.replaceAll("_", " "));
     head.scope = "row";
-    row.append(head, make("td", "", `${Number(value.toPrecision(4))}${unit === "1" ? "" : ` ${unit}`}`));
+    row.append(head, make("td", "", `${shown(value)}${unit === "1" ? "" : ` ${unit}`}`));
   }
   return table;
 }

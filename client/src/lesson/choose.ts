@@ -1,7 +1,8 @@
 /** The dialog in which a trainee says who it is, what to do and how hard it shall be. */
 
-import { byId, make } from "../panel/element";
+import { byId, make, say } from "../panel/element";
 import type { AttemptRow, TaskLevel, Trainee } from "../wire/rest";
+import { asKept, troubleWith } from "./names";
 
 const NAME = "trocar-trainee"; // under which the page remembers who trained here last
 
@@ -13,6 +14,7 @@ export interface Choice {
 export class Choose {
   private readonly dialog = byId("choose", HTMLDialogElement);
   private readonly name = byId("trainee", HTMLInputElement);
+  private readonly trouble = byId("choose-trouble", HTMLElement);
   private readonly list = byId("task-list", HTMLDivElement);
   private readonly known = byId("trainees", HTMLDataListElement);
   private tasks: readonly TaskLevel[] = [];
@@ -22,12 +24,20 @@ export class Choose {
 
   /** @param chosen told what was chosen. */
   constructor(chosen: (choice: Choice) => void) {
-    this.name.value = localStorage.getItem(NAME) ?? "";
-    this.name.addEventListener("input", () => this.tellBest());
+    const last = localStorage.getItem(NAME) ?? "";
+    if (!troubleWith(last)) this.name.value = last;
+    this.name.addEventListener("input", () => {
+      if (this.trouble.textContent) this.tellTrouble();
+      this.tellBest();
+    });
     byId("choose-form", HTMLFormElement).addEventListener("submit", (event) => {
       event.preventDefault();
       const task = this.tasks.find((each) => each.name === this.task && each.level === this.level);
-      if (!task || !this.trainee) return;
+      if (!task) return;
+      if (this.tellTrouble()) {
+        this.name.focus();
+        return;
+      }
       localStorage.setItem(NAME, this.trainee);
       this.dialog.close();
       chosen({ trainee: this.trainee, task });
@@ -37,14 +47,15 @@ export class Choose {
 
   /** Who trains, as far as it was said. */
   get trainee(): string {
-    return this.name.value.trim();
+    return asKept(this.name.value);
   }
 
   open(tasks: readonly TaskLevel[], trainees: readonly Trainee[], rows: readonly AttemptRow[]): void {
     this.tasks = tasks;
     this.rows = rows;
     this.task ||= tasks[0]?.name ?? "";
-    this.known.replaceChildren(...trainees.map((each) => new Option(each.name, each.name)));
+    const names = trainees.map((each) => each.name).filter((name) => !troubleWith(name));
+    this.known.replaceChildren(...names.map((name) => new Option(name, name)));
     this.list.replaceChildren(...tasks.filter((each) => each.level === 1).map((each) => this.card(each)));
     this.tellBest();
     this.dialog.showModal();
@@ -73,6 +84,14 @@ export class Choose {
     }
     card.append(levels);
     return card;
+  }
+
+  /** Say what is wrong with the name, and return whether anything is. */
+  private tellTrouble(): boolean {
+    const words = troubleWith(this.name.value);
+    say(this.trouble, words);
+    this.name.setAttribute("aria-invalid", String(words !== ""));
+    return words !== "";
   }
 
   /** Say beside each level how the trainee fared with it so far. */

@@ -14,9 +14,20 @@ import { Questions } from "./questions";
 import type { Replay } from "./replay";
 import { type Offer, TaskPanel } from "./task-panel";
 import { beforehand, ready, result, underWay } from "./told";
+import { forget, isOurs, remember, type UnderWay } from "./under-way";
 
 const FREE = "Free practice: press, slide on and lift the tissue, as long as you like. Nothing is recorded.";
 const NO_LESSONS = "Free practice: press, slide on and lift the tissue. There is no task to follow.";
+const NOT_SAID = "Waiting for the trainer.";
+const LOST = "The trainer does not answer.";
+const START_AGAIN =
+  "Start the trainer again with trocar train and open the address that it prints: port and token are others each time. " +
+  "If only the connection broke, this page goes on by itself when it is there again.";
+const LOST_ATTEMPT = "The attempt does not go on.";
+const KEPT = "If the trainer was stopped, what was done of the attempt is kept, as interrupted. ";
+const FILMING = "The scripted expert is being filmed.";
+const COMPARING = "Both attempts are being computed again.";
+const HOW_LONG = "That takes some seconds, and the first time on a machine a minute or more.";
 
 /** What a lesson asks of the page. */
 export interface Stage {
@@ -40,55 +51,79 @@ export class Day {
     (attempt) => void this.safely(() => this.open(attempt)),
     (error) => this.fail(error),
   );
-  private readonly questions = new Questions(() => this.stage.say("info", "Thank you: your answers are kept."));
+  private readonly questions = new Questions();
   private readonly choose = new Choose((choice) => this.brief(choice));
   private tasks: readonly TaskLevel[] = [];
-  private chosen: Choice | null = null;
-  private attempt = 0; // number of the one that is under way; 0 if none is
+  private chosen: Choice | null = null; // at this page, whoever else is at an attempt
+  private on: UnderWay | null = null;
   private beginning = false;
+  private waiting = false;
   private offered = false;
+  private settled = false; // the trainer has said what is on
 
   constructor(private readonly stage: Stage) {
-    this.panel.free(NO_LESSONS, []);
+    this.panel.say(NOT_SAID, []);
   }
 
   /** Take the trainer's greeting. */
   greet(hello: Hello): void {
-    if (hello.lessons === this.offered) return;
     this.offered = hello.lessons;
-    this.free();
+  }
+
+  /** The trainer has said what is on; where that was no attempt, there is none. */
+  settle(): void {
+    this.settled = true;
+    if (!this.on && !this.beginning) this.rest();
+  }
+
+  /** The connection is lost: nothing is known of what was on. */
+  lose(): void {
+    if (!this.settled) return;
+    if (this.on || this.beginning) this.panel.stop(LOST_ATTEMPT, KEPT + START_AGAIN);
+    else this.panel.stop(LOST, START_AGAIN);
+    this.settled = false;
+    this.on = null;
+    this.stage.ask(null);
+    this.stage.write([["trouble", LOST]]);
   }
 
   /** Take what the trainer says of the attempt that is under way. */
   take(guiding: Guiding): void {
-    if (this.attempt === 0 && !this.beginning && guiding.state === "running") void this.safely(() => this.takeUp(guiding.attempt));
-    if (guiding.attempt !== this.attempt) return;
+    const goesOn = guiding.state === "running" || guiding.state === "marking";
+    if (!this.on && !this.beginning && goesOn) void this.safely(() => this.takeUp(guiding.attempt));
+    const on = this.on;
+    if (guiding.attempt !== on?.number) return;
     this.panel.update(guiding);
     this.stage.ask(guiding.state === "running" ? guiding : null);
     this.stage.write(underWay(guiding));
-    if (guiding.state === "running" || guiding.state === "marking") return;
-    this.attempt = 0;
-    if (guiding.state === "finished") void this.safely(() => this.open(guiding.attempt));
+    if (goesOn) return;
+    this.on = null;
+    if (on.isOurs && guiding.state === "finished") void this.safely(() => this.open(guiding.attempt));
     else {
-      if (this.chosen) this.brief(this.chosen);
-      this.fail(new Error(`The attempt was interrupted: ${guiding.reason}.`));
+      this.rest();
+      if (on.isOurs) this.fail(new Error(`The attempt was interrupted: ${guiding.reason}.`));
+      else this.stage.say("info", `${on.whose} is over.`);
     }
   }
 
   /** Begin what was chosen, or do it again: both triggers were squeezed. */
   squeezed(): void {
     const choice = this.chosen;
-    if (choice && this.attempt === 0 && !this.beginning) void this.safely(() => this.begin(choice));
+    if (choice && this.settled && !this.on && !this.beginning && !this.waiting) void this.safely(() => this.begin(choice));
   }
 
   /** Take up an attempt that another page began, or this one before it was loaded again. */
   private async takeUp(number: number): Promise<void> {
-    this.attempt = number;
+    const on: UnderWay = { number, isOurs: false, whose: "The attempt" };
+    this.on = on;
     const row = await get<AttemptRow>(`/api/attempts/${number}`);
     const task = await this.taskOf(row);
-    this.chosen = { trainee: row.trainee, task };
-    this.panel.begin(task, []);
-    this.offerEnd();
+    if (this.on !== on) return; // it is over meanwhile, or the connection
+    on.isOurs = isOurs(row);
+    on.whose = `${row.trainee}'s attempt`;
+    if (on.isOurs) this.chosen = { trainee: row.trainee, task };
+    this.panel.begin(task, on.isOurs ? on.whose : `${row.trainee} is at it, on another page.`, []);
+    this.offerEnd(on);
   }
 
   private async taskOf(row: AttemptRow): Promise<TaskLevel> {
@@ -98,15 +133,42 @@ export class Day {
     return task;
   }
 
-  private offerEnd(): void {
-    this.panel.offer([["End the attempt", () => void this.safely(() => post(`/api/attempts/${this.attempt}/end`, {}))]]);
+  /** Offer to end an attempt; one that another page began only after a question. */
+  private offerEnd(on: UnderWay): void {
+    const end = (): void => void this.safely(() => this.end(on));
+    if (on.isOurs) {
+      this.panel.offer([["End the attempt", end]]);
+      return;
+    }
+    const asking = `${on.whose} would end as it stands, and be marked so. Its page may still be open.`;
+    const answers: Offer[] = [
+      ["Let it go on", () => this.offerEnd(on)],
+      ["End it", end],
+    ];
+    this.panel.offer([[`End ${on.whose}`, () => this.panel.offer(answers, asking)]]);
+  }
+
+  private async end(on: UnderWay): Promise<void> {
+    this.panel.offer([]);
+    try {
+      await post(`/api/attempts/${on.number}/end`, {});
+    } catch (error) {
+      if (this.on === on) this.offerEnd(on);
+      throw error;
+    }
+  }
+
+  /** Show what can be done while no attempt is under way. */
+  private rest(): void {
+    if (this.chosen) this.brief(this.chosen);
+    else this.free();
   }
 
   private free(): void {
     this.chosen = null;
     this.stage.write([]);
-    if (!this.offered) this.panel.free(NO_LESSONS, []);
-    else this.panel.free(FREE, [["Choose a task", () => void this.safely(() => this.offer())]]);
+    if (!this.offered) this.panel.say(NO_LESSONS, []);
+    else this.panel.say(FREE, [["Choose a task", () => void this.safely(() => this.offer())]]);
   }
 
   private async offer(): Promise<void> {
@@ -120,8 +182,9 @@ export class Day {
   }
 
   private brief(choice: Choice): void {
-    this.stage.replay.close();
     this.chosen = choice;
+    if (this.on || !this.settled) return; // the panel shows what is on, or that nothing is
+    this.stage.replay.close();
     const { task, trainee } = choice;
     this.stage.write(beforehand(task));
     this.panel.brief(task, trainee, [
@@ -134,31 +197,38 @@ export class Day {
   }
 
   private async watch(task: TaskLevel): Promise<void> {
-    this.stage.say("info", "Fetching the expert's attempt, a few seconds the first time.");
-    const film = await this.film(`/api/tasks/${task.name}/${task.level}/film`);
+    const film = await this.wait(FILMING, () => this.film(`/api/tasks/${task.name}/${task.level}/film`));
     this.stage.show(film.sheet.hello);
     this.stage.replay.open(film, null, ["The scripted expert", ""], () => this.stage.show(null));
     this.stage.say("info", `The scripted expert at ${task.title.toLowerCase()}, level ${task.level}.`);
   }
 
   private async begin(choice: Choice): Promise<void> {
+    if (this.on) throw new Error(`${this.on.whose} is still under way. Wait until it is over.`);
     const { task, trainee } = choice;
+    const begun = { trainee, task: task.name, level: task.level };
+    const whose = `${trainee}'s attempt`;
     this.stage.replay.close();
-    this.panel.begin(task, []);
+    this.panel.begin(task, whose, []);
     this.stage.write(ready(task));
     this.stage.begin();
     this.card.close();
     this.beginning = true;
+    remember(begun, null);
     try {
-      const row = await post<AttemptRow>("/api/attempts", { trainee, task: task.name, level: task.level });
-      this.attempt = row.id;
+      const row = await post<AttemptRow>("/api/attempts", begun);
+      remember(begun, row.id);
+      if (!this.settled) return; // the connection was lost meanwhile; with the next one it is taken up
+      this.on = { number: row.id, isOurs: true, whose };
+      this.panel.begin(task, whose, []);
+      this.offerEnd(this.on);
     } catch (error) {
+      forget();
       this.brief(choice);
       throw error;
     } finally {
       this.beginning = false;
     }
-    this.offerEnd();
   }
 
   private async open(number: number): Promise<void> {
@@ -166,7 +236,7 @@ export class Day {
     const task = await this.taskOf(attempt);
     const choice = { trainee: attempt.trainee, task };
     this.brief(choice);
-    if (attempt.card) this.stage.write(result(attempt.card, task));
+    if (attempt.card && !this.on) this.stage.write(result(attempt.card, task));
     const offers: Offer[] = [
       ["Try again", () => void this.safely(() => this.begin(choice))],
       ["Look at it again, beside the expert", () => void this.safely(() => this.compare(attempt, task))],
@@ -178,11 +248,12 @@ export class Day {
   }
 
   private async compare(attempt: Attempt, task: TaskLevel): Promise<void> {
-    this.stage.say("info", "Fetching both attempts, a few seconds.");
-    const [mine, theirs] = await Promise.all([
-      this.film(`/api/attempts/${attempt.id}/film`),
-      this.film(`/api/tasks/${task.name}/${task.level}/film`),
-    ]);
+    const [mine, theirs] = await this.wait(COMPARING, () =>
+      Promise.all([
+        this.film(`/api/attempts/${attempt.id}/film`),
+        this.film(`/api/tasks/${task.name}/${task.level}/film`),
+      ]),
+    );
     this.stage.show(mine.sheet.hello);
     const captions = [`${attempt.trainee}, attempt ${attempt.id}`, "The scripted expert"] as const;
     this.stage.replay.open(mine, theirs, captions, () => this.stage.show(null));
@@ -191,6 +262,18 @@ export class Day {
 
   private film(path: string): Promise<Film> {
     return Film.open(path, (error) => this.fail(error));
+  }
+
+  /** Do something that may take a minute, and say so until it is done. */
+  private async wait<Kind>(words: string, act: () => Promise<Kind>): Promise<Kind> {
+    this.waiting = true;
+    this.panel.wait(words, HOW_LONG);
+    try {
+      return await act();
+    } finally {
+      this.waiting = false;
+      this.panel.wait("", "");
+    }
   }
 
   private async safely(act: () => Promise<unknown>): Promise<void> {
@@ -204,6 +287,6 @@ export class Day {
   /** Say what went wrong, on the page and, where no attempt is under way, on the board. */
   private fail(error: Error): void {
     this.stage.say("warning", error.message);
-    if (this.chosen && this.attempt === 0) this.stage.write(beforehand(this.chosen.task, error.message));
+    if (this.chosen && this.settled && !this.on) this.stage.write(beforehand(this.chosen.task, error.message));
   }
 }

@@ -2,7 +2,7 @@
 
 import { byId, make } from "../panel/element";
 import { type AttemptRow, get, type History, type TaskLevel } from "../wire/rest";
-import { figure } from "./card";
+import { figure } from "./figure";
 
 const MOST_ROWS = 50; // newest first; the command line lists them all
 
@@ -48,8 +48,8 @@ export class HistoryView {
       const remains = standing(history);
       this.charts.replaceChildren(
         make("p", "", remains),
-        figure(`/api/history/figures/learning.svg?${asked}`, `Learning curve: score against attempt. ${remains}`),
-        figure(`/api/history/figures/cusum.svg?${asked}`, "CUSUM chart: whether failures are more than chance explains"),
+        figure(`/api/history/figures/learning.svg?${asked}`, 290, `Learning curve: score against attempt. ${remains}`),
+        figure(`/api/history/figures/cusum.svg?${asked}`, 360, "CUSUM chart: whether failures are more than chance explains"),
       );
       this.list.replaceChildren(...(rows.length ? [this.table(rows)] : []));
     } catch (error) {

@@ -9,15 +9,17 @@ export class Questions {
   private readonly items = byId("questions-items", HTMLDivElement);
   private readonly group = byId("questions-group", HTMLSelectElement);
   private readonly trouble = byId("questions-trouble", HTMLElement);
+  private readonly thanks = byId("questions-thanks", HTMLDivElement);
   private trainee = "";
   private attempt: number | null = null;
 
-  /** @param thanked told when answers were kept. */
-  constructor(thanked: () => void) {
-    byId("questions-cancel", HTMLButtonElement).addEventListener("click", () => this.dialog.close());
+  constructor() {
+    for (const id of ["questions-cancel", "questions-close"]) {
+      byId(id, HTMLButtonElement).addEventListener("click", () => this.dialog.close());
+    }
     this.form.addEventListener("submit", (event) => {
       event.preventDefault();
-      void this.send(thanked);
+      void this.send();
     });
   }
 
@@ -29,10 +31,18 @@ export class Questions {
     this.group.replaceChildren(...asked.groups.map((name) => new Option(name, name)));
     this.items.replaceChildren(...Object.entries(asked.items).map(([item, words]) => question(item, words, asked)));
     this.trouble.textContent = "";
+    this.thank(false);
     this.dialog.showModal();
   }
 
-  private async send(thanked: () => void): Promise<void> {
+  /** Show thanks in place of the questions: here nothing else is said that could hide them. */
+  private thank(kept: boolean): void {
+    this.form.hidden = kept;
+    this.thanks.hidden = !kept;
+    if (kept) byId("questions-close", HTMLButtonElement).focus();
+  }
+
+  private async send(): Promise<void> {
     const values = Object.fromEntries(
       [...new FormData(this.form).entries()].filter(([item]) => item !== "group").map(([item, value]) => [item, Number(value)]),
     );
@@ -46,8 +56,7 @@ export class Questions {
       this.trouble.textContent = (error as Error).message;
       return;
     }
-    this.dialog.close();
-    thanked();
+    this.thank(true);
   }
 }
 

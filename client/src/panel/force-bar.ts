@@ -15,6 +15,7 @@ export class ForceBar {
   private readonly said = make("p", "said");
   private least = 0; // [N]
   private most = 0; // [N]; 0 where no force is asked for
+  private shown: readonly [force: number, doing: string] = [0, ""];
 
   /** @param title such as "left: grasper". @param linear the linear range ends here [N]. */
   constructor(
@@ -35,11 +36,13 @@ export class ForceBar {
 
   /** Show what force is asked for [N]; no most asks for none. */
   ask(least: number, most: number): void {
+    if (least === this.least && most === this.most) return;
     [this.least, this.most] = [least, most];
     this.band.hidden = most === 0;
     const share = (force: number): string => `${Math.min((100 * force) / (SPAN * this.linear), 100).toFixed(2)}%`;
     this.band.style.left = share(least);
     this.band.style.right = `calc(100% - ${share(most)})`;
+    this.show(...this.shown); // no frame may come that would
   }
 
   /** Show what a frame says. */
@@ -50,6 +53,7 @@ export class ForceBar {
   }
 
   private show(force: number, doing: string): void {
+    this.shown = [force, doing];
     const beyond = force > this.linear;
     const text = `${force.toFixed(3)} N`;
     say(this.value, text);

@@ -19,7 +19,10 @@ export class Notices {
 
   connected(state: Connection, reason: string): void {
     this.connection = sentence(state, reason);
-    if (state !== "open") this.notice = null;
+    if (state !== "open") {
+      this.notice = null; // of what was, as is what the servo's last frame warned of
+      this.servo = ["info", ""];
+    }
     this.show(performance.now());
   }
 
@@ -51,15 +54,17 @@ export class Notices {
   }
 }
 
+const GONE =
+  "The trainer does not answer. If it was stopped, start it again with trocar train and open the address that it prints.";
+
 function sentence(state: Connection, reason: string): readonly [Level, string] {
-  const because = reason ? ` (${reason})` : "";
   switch (state) {
     case "connecting":
       return ["info", "Connecting to the trainer."];
     case "open":
       return ["info", "Connected."];
     case "lost":
-      return ["stopped", `The trainer does not answer${because}; the picture stands still. Trying again.`];
+      return ["stopped", reason ? `The trainer ended the connection: ${reason}. Trying again.` : GONE];
     case "refused":
       return ["stopped", reason];
   }

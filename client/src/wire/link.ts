@@ -9,13 +9,17 @@ import { Sending } from "./sending";
 const FIRST_WAIT = 500; // [ms]
 const LONGEST_WAIT = 8000; // [ms]
 const MOST_WAITING = 1 << 16; // bytes not sent yet, beyond which poses are left out
+const STOPPED = 1001; // the trainer's farewell when it goes; every other one has a reason that a user can act on
 
 export type Connection = "connecting" | "open" | "lost" | "refused";
 
 export interface Listener {
   hello(hello: Hello): void;
   guiding(guiding: Guiding): void;
+  /** What is on at the trainer has been said: it comes before the first frame of a connection. */
+  settled(): void;
   notice(notice: Notice): void;
+  /** Told once for each change; tries to come again change nothing. @param reason why the trainer ended it, if it said. */
   connection(state: Connection, reason: string): void;
 }
 
@@ -25,6 +29,8 @@ export class Link {
   private socket: WebSocket | null = null;
   private wait = FIRST_WAIT;
   private greeted = false;
+  private isSettled = false;
+  private told: readonly [Connection, string] | null = null;
 
   /** @param open makes a socket; a test gives its own. */
   constructor(
@@ -33,15 +39,15 @@ export class Link {
   ) {}
 
   connect(): void {
-    this.listener.connection("connecting", "");
+    if (this.told?.[0] !== "lost") this.tell("connecting", "");
     const socket = this.open();
     socket.binaryType = "arraybuffer";
     this.socket = socket;
-    this.greeted = false;
+    this.greeted = this.isSettled = false;
     this.frames.clear();
     for (const sending of this.sending) sending.clear();
     socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => this.take(socket, event.data);
-    socket.onclose = (event: CloseEvent) => this.lost(socket, event.reason);
+    socket.onclose = (event: CloseEvent) => this.lost(socket, event.code === STOPPED ? "" : event.reason);
   }
 
   /** Send a pose if it is time to. @param tracked whether a headset's controller is the handle. */
@@ -66,6 +72,8 @@ export class Link {
     try {
       if (typeof data !== "string") {
         this.frames.put(data);
+        if (!this.isSettled) this.listener.settled();
+        this.isSettled = true;
         return;
       }
       const message = readServerMessage(data);
@@ -80,7 +88,7 @@ export class Link {
       this.greeted = true;
       this.wait = FIRST_WAIT;
       this.listener.hello(message);
-      this.listener.connection("open", "");
+      this.tell("open", "");
     } catch (error) {
       if (!(error instanceof WireError)) throw error;
       this.refuse(error.message);
@@ -93,15 +101,21 @@ export class Link {
     this.socket = null;
     this.greeted = false;
     socket?.close();
-    this.listener.connection("refused", sentence);
+    this.tell("refused", sentence);
   }
 
   private lost(socket: WebSocket, reason: string): void {
     if (socket !== this.socket) return;
     this.socket = null;
     this.greeted = false;
-    this.listener.connection("lost", reason);
+    this.tell("lost", reason);
     setTimeout(() => this.connect(), this.wait);
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
+  }
+
+  private tell(state: Connection, reason: string): void {
+    if (this.told?.[0] === state && this.told[1] === reason) return;
+    this.told = [state, reason];
+    this.listener.connection(state, reason);
   }
 }

@@ -103,6 +103,7 @@ async function asked(path: string, how?: RequestInit): Promise<Response> {
     throw new Refused("The trainer does not answer.");
   }
   if (answer.ok) return answer;
+  if (answer.status === 401) throw new Refused("The trainer does not know this page any more. Open the address that it printed.");
   const told: unknown = await answer.json().catch(() => null);
   const detail = typeof told === "object" && told !== null ? (Reflect.get(told, "detail") as unknown) : null;
   throw new Refused(typeof detail === "string" ? sentence(detail) : `The trainer answered ${answer.status}.`);

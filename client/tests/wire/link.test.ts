@@ -11,7 +11,7 @@ class FakeSocket {
   bufferedAmount = 0;
   sent: (string | ArrayBuffer)[] = [];
   onmessage: (event: { data: unknown }) => void = () => undefined;
-  onclose: (event: { reason: string }) => void = () => undefined;
+  onclose: (event: { code: number; reason: string }) => void = () => undefined;
   constructor() {
     FakeSocket.made.push(this);
   }
@@ -19,15 +19,16 @@ class FakeSocket {
     this.sent.push(message);
   }
   close(): void {
-    this.onclose({ reason: "" });
+    this.onclose({ code: 1005, reason: "" });
   }
 }
 
-const told: { hellos: Hello[]; guided: Guiding[]; notices: Notice[]; states: [Connection, string][] } = {
+const told: { hellos: Hello[]; guided: Guiding[]; notices: Notice[]; states: [Connection, string][]; settled: number } = {
   hellos: [],
   guided: [],
   notices: [],
   states: [],
+  settled: 0,
 };
 const POSE = hands()[0].pose;
 
@@ -36,6 +37,7 @@ function connected(): [Link, FakeSocket] {
     {
       hello: (message) => told.hellos.push(message),
       guiding: (message) => told.guided.push(message),
+      settled: () => (told.settled += 1),
       notice: (message) => told.notices.push(message),
       connection: (state, reason) => told.states.push([state, reason]),
     },
@@ -51,6 +53,7 @@ beforeEach(() => {
   told.hellos = [];
   told.notices = [];
   told.states = [];
+  told.settled = 0;
 });
 afterEach(() => vi.useRealTimers());
 
@@ -87,17 +90,47 @@ describe("the link", () => {
 
   it("comes again after it was lost, waiting longer each time", () => {
     const [, socket] = connected();
-    socket.onclose({ reason: "the trainer stops" });
-    expect(told.states.at(-1)).toEqual(["lost", "the trainer stops"]);
+    socket.onclose({ code: 1006, reason: "" });
+    expect(told.states.at(-1)).toEqual(["lost", ""]);
     vi.advanceTimersByTime(499);
     expect(FakeSocket.made).toHaveLength(1);
     vi.advanceTimersByTime(1);
     expect(FakeSocket.made).toHaveLength(2);
-    FakeSocket.made[1]?.onclose({ reason: "" });
+    FakeSocket.made[1]?.onclose({ code: 1006, reason: "" });
     vi.advanceTimersByTime(999);
     expect(FakeSocket.made).toHaveLength(2);
     vi.advanceTimersByTime(1);
     expect(FakeSocket.made).toHaveLength(3);
+  });
+
+  it("says once that it was lost, however often it tries, and why if that was said", () => {
+    const [, socket] = connected();
+    socket.onmessage({ data: JSON.stringify(hello()) });
+    socket.onclose({ code: 1001, reason: "the trainer stops" });
+    for (const at of [1, 2, 3]) {
+      vi.advanceTimersByTime(10_000);
+      FakeSocket.made[at]?.onclose({ code: 1006, reason: "" });
+    }
+    expect(told.states).toEqual([["connecting", ""], ["open", ""], ["lost", ""]]);
+    vi.advanceTimersByTime(10_000);
+    FakeSocket.made.at(-1)?.onclose({ code: 4005, reason: "4 clients are connected" });
+    expect(told.states.at(-1)).toEqual(["lost", "4 clients are connected"]);
+    vi.advanceTimersByTime(10_000);
+    FakeSocket.made.at(-1)?.onmessage({ data: JSON.stringify(hello()) });
+    expect(told.states.at(-1)).toEqual(["open", ""]);
+  });
+
+  it("knows what is on with the first frame of each connection", () => {
+    const [, socket] = connected();
+    socket.onmessage({ data: JSON.stringify(hello()) });
+    expect(told.settled).toBe(0);
+    for (const sequence of [1, 2]) socket.onmessage({ data: frame(sequence) });
+    expect(told.settled).toBe(1);
+    socket.onclose({ code: 1006, reason: "" });
+    vi.advanceTimersByTime(500);
+    FakeSocket.made[1]?.onmessage({ data: JSON.stringify(hello()) });
+    FakeSocket.made[1]?.onmessage({ data: frame(1) });
+    expect(told.settled).toBe(2);
   });
 
   it("gives up on what it cannot understand", () => {

@@ -41,7 +41,7 @@ def attempt_on_record(
     """
     task = task_by_name(name, level)
     number = records.begin(
-        records.trainee(trainee or f"scripted {skill_of(skill)}"),
+        records.trainee(trainee) if trainee else records.scripted_trainee(skill_of(skill)),
         task=task.name,
         level=level,
         device="simulated",

@@ -28,7 +28,7 @@ from trocar.records.database import (
 )
 from trocar.records.folder import FILE, check_folder, make_folder, records_folder
 from trocar.records.learning import History
-from trocar.records.names import as_kept, trainee_name
+from trocar.records.names import as_kept, scripted_name, trainee_name
 from trocar.records.rows import AttemptRow, KeptAttempt, Metric, Status, Trainee
 from trocar.records.schema import NEWEST, WITH_ANSWERS, bring_up, version
 from trocar.records.sheets import Sheet
@@ -109,7 +109,7 @@ class Records:
     # What is kept.
 
     def trainee(self, name: str) -> Trainee:
-        """Return the trainee of that name, who is from now on known.
+        """Return the person of that name, who is from now on known.
 
         Raises:
             InputError: nobody can be called so.
@@ -118,6 +118,15 @@ class Records:
         kept = trainee_name(name)
         with self._writing() as session:
             return changes.trainee(session, kept)
+
+    def scripted_trainee(self, skill: str) -> Trainee:
+        """Return the scripted trainee of a skill, whose name `trainee` gives to nobody.
+
+        Raises:
+            RecordsError: nothing can be written.
+        """
+        with self._writing() as session:
+            return changes.trainee(session, scripted_name(skill))
 
     def begin(
         self,

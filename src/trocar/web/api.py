@@ -5,12 +5,15 @@ Every answer is what a library function returned, as JSON; OpenAPI describes it 
 
 from __future__ import annotations
 
+from http import HTTPStatus
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, FastAPI, HTTPException, Path, Query, Request
+from fastapi.exception_handlers import http_exception_handler
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse, Response
 from pydantic import BaseModel, ConfigDict, Field
+from starlette.exceptions import HTTPException as StarletteHTTPException
 
 from trocar.errors import InputError, TrocarError
 from trocar.records.learning import IN_A_ROW
@@ -31,6 +34,7 @@ from trocar.web.messages import Asked, Hello
 
 _Number = Annotated[int, Path(ge=1, le=2**53)]
 _Level = Annotated[int, Path(ge=1, le=9)]
+_TOLD = "/api/openapi.json tells what is expected"
 _FRAMES, _SVG = "application/octet-stream", "image/svg+xml"
 _FIGURES = {"forces": forces, "paths": paths, "time": time_spent}
 
@@ -216,7 +220,18 @@ def say_errors(app: FastAPI) -> None:
     def malformed(_: Request, error: RequestValidationError) -> JSONResponse:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"][1:])) or "the body"
+        if first["type"] == "missing":
+            return answer(422, f"{where}: it is missing; {_TOLD}")
         return answer(422, f"{where}: {first['msg'].lower()}, got {str(first['input'])[:80]!r}")
+
+    @app.exception_handler(StarletteHTTPException)
+    async def elsewhere(request: Request, error: StarletteHTTPException) -> Response:
+        path, said = request.url.path, error.detail != HTTPStatus(error.status_code).phrase
+        if said or not path.startswith("/api/"):
+            return await http_exception_handler(request, error)
+        if allowed := (error.headers or {}).get("Allow"):
+            return answer(405, f"{path[:80]}: expected {allowed}, got {request.method}; {_TOLD}")
+        return answer(404, f"{path[:80]}: there is nothing here; {_TOLD}")
 
 
 def _sheet(screening: Screening, attempt: int | None) -> FilmSheet:

@@ -45,6 +45,8 @@ class ClientFiles:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer one request; a WebSocket has no business here."""
+        if scope["type"] == "http" and scope["path"].startswith("/api/"):
+            raise HTTPException(404)  # by any method: no route of the interface took it
         answer: Response | StaticFiles = self._files
         if scope["type"] == "http" and not self._index.is_file():
             if self._files.get_path(scope) != ".":
@@ -62,7 +64,12 @@ def application(live: Live, lessons: Lessons | None = None, *, client: Path = CL
         client: folder of the built browser client.
     """
     app = FastAPI(
-        title="Trocar", version=__version__, openapi_url="/api/openapi.json", docs_url=None, redoc_url=None
+        title="Trocar",
+        version=__version__,
+        openapi_url="/api/openapi.json",
+        docs_url=None,
+        redoc_url=None,
+        redirect_slashes=False,
     )
 
     @app.get("/healthz", include_in_schema=False)
@@ -80,5 +87,7 @@ def application(live: Live, lessons: Lessons | None = None, *, client: Path = CL
     say_errors(app)
     if lessons is not None:
         app.include_router(routes(lessons))
-    app.mount("/", ClientFiles(client))
+    app.router.default = ClientFiles(
+        client
+    )  # no mount: that would take what a route has but by another method
     return app

@@ -93,8 +93,8 @@ class Conversation:
         self._on_pose = on_pose
         self._hello = source.hello()
         self._block = Block.of(self._hello.tissue)
-        self._guiding: Guiding | None = None
-        self._guiding_is_told = True
+        self._guiding = source.guiding()  # told before the first frame, so that a page knows what is on
+        self._guiding_is_told = self._guiding is None
         self._sent = 0
         self._acknowledged = 0
         self._pose_sequence = [-1, -1]

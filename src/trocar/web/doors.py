@@ -37,6 +37,19 @@ RESPONSE_HEADERS = {
     "Referrer-Policy": "no-referrer",
     "Cache-Control": "no-cache",  # kept, but asked for again each time: the session may have ended
 }
+_WHERE_THE_ADDRESS_IS = """\
+<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="dark">
+<title>Trocar: not this address</title>
+<h1>This address does not open the trainer</h1>
+<p>Open the one that <code>trocar train</code> (or <code>make run</code>) printed in its terminal, whole, up to its
+last character.</p>
+<p>It is another one each time the trainer is started: one from before, or a bookmark, does not work any more.</p>
+</html>
+"""  # a colour scheme, for the policy lets in no style from elsewhere than behind the doors
 _LOG = logging.getLogger(__name__)
 _LARGEST_BODY = 65536  # bytes
 _HARMLESS = {"GET", "HEAD", "OPTIONS"}  # what a browser may send without an Origin
@@ -80,9 +93,14 @@ class Doors:
         exchange = token is not None and self._sessions.is_token(token)
         refused = self._refusal(scope, headers, exchange=exchange)
         if refused is not None:
-            await _answer(scope, send_with_headers, *refused)
+            status, text = refused
+            is_read = status is HTTPStatus.UNAUTHORIZED and "text/html" in headers.get("accept", "")
+            shown = _WHERE_THE_ADDRESS_IS if is_read else text
+            await _answer(
+                scope, send_with_headers, status, shown, kind="text/html" if is_read else "text/plain"
+            )
         elif exchange:
-            await _answer(scope, send_with_headers, HTTPStatus.SEE_OTHER, "", self._welcome())
+            await _answer(scope, send_with_headers, HTTPStatus.SEE_OTHER, "", headers=self._welcome())
         else:
             try:
                 await self._application(scope, receive, send_with_headers)
@@ -142,10 +160,19 @@ def _token(scope: Scope) -> str | None:
 
 
 async def _answer(
-    scope: Scope, send: Send, status: HTTPStatus, text: str, headers: dict[str, str] | None = None
+    scope: Scope,
+    send: Send,
+    status: HTTPStatus,
+    text: str,
+    *,
+    kind: str = "text/plain",
+    headers: dict[str, str] | None = None,
 ) -> None:
     body = f"{text}\n".encode() if text else b""
-    raw = [(b"content-type", b"text/plain; charset=utf-8"), (b"content-length", str(len(body)).encode())]
+    raw = [
+        (b"content-type", f"{kind}; charset=utf-8".encode()),
+        (b"content-length", str(len(body)).encode()),
+    ]
     raw += [(name.lower().encode(), value.encode()) for name, value in (headers or {}).items()]
     prefix = ""
     if scope["type"] == "websocket":
