@@ -20,6 +20,8 @@ if TYPE_CHECKING:  # the same names for type checkers and editors
     from trocar.tissues.layer import Layer as Layer
     from trocar.tissues.tissue import Tissue as Tissue
     from trocar.waves.membrane import WaveMembrane as WaveMembrane
+    from trocar.waves.mesh.solid_mesh import SolidMesh as SolidMesh
+    from trocar.waves.mesh.wave_mesh import WaveMesh as WaveMesh
     from trocar.waves.solid import WaveSolid as WaveSolid
 
 __version__ = "0.1.0"
@@ -28,9 +30,11 @@ _HOME = {  # public name: the module it lives in
     "FEASolid": "trocar.reference.fea",
     "Layer": "trocar.tissues.layer",
     "Press": "trocar.model",
+    "SolidMesh": "trocar.waves.mesh.solid_mesh",
     "Support": "trocar.model",
     "Tissue": "trocar.tissues.tissue",
     "WaveMembrane": "trocar.waves.membrane",
+    "WaveMesh": "trocar.waves.mesh.wave_mesh",
     "WaveSolid": "trocar.waves.solid",
     "compare": "trocar.study.compare",
     "load_case": "trocar.study.cases.reading",

@@ -8,6 +8,8 @@ from trocar.model import Press
 from trocar.reference.block import MeshSize
 from trocar.reference.fea import FEASolid
 from trocar.waves.membrane import WaveMembrane
+from trocar.waves.mesh.block import block_mesh, lines_around
+from trocar.waves.mesh.wave_mesh import WaveMesh
 from trocar.waves.solid import WaveSolid
 
 SIZE = (0.06, 0.06)
@@ -54,3 +56,13 @@ class TestFEASolid(TissueModelContract):
         around = (Press(x=0.026, y=0.031, radius=0.003, force=1.0),)
         coarse = MeshSize(per_radius=1.0, growth=1.0, top=0.6, deepening=1.0)
         return FEASolid(three_layers(), size=SIZE, support="base", around=around, mesh=coarse)
+
+
+class TestWaveMesh(TissueModelContract):
+    rounding = 1e-8  # an iterative eigenproblem, and seven vectors of each press that are nearly the same
+
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        around = (Press(x=0.026, y=0.031, radius=3e-3, force=1.0),)
+        return WaveMesh(block_mesh(three_layers(), lines_around(three_layers(), SIZE, around)), modes=30)

@@ -89,7 +89,6 @@ def test_progress_is_told_to_the_end():
         ((), "at least one"),
         (("fem",), "fem"),
         (("mass-spring",), "not built yet"),
-        (("wave-mesh",), "not built yet"),
     ],
 )
 def test_models_that_are_not_there_are_refused(names, word):

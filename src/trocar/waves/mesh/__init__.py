@@ -1,0 +1,1 @@
+"""Waves of any shape: finite-element modes of a mesh, and what is left of its static answer."""

@@ -1,0 +1,33 @@
+"""Points of a footprint with shares of its force: a polar rule, which knows nothing of the elements below."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import numpy as np
+
+from trocar.model import FloatArray, Press, Profile
+
+_RINGS, _SPOKES = 32, 128
+_GAUSSIAN_RIM = (
+    3.0  # where the Gaussian profile exp(-2 rho^2) is cut off, in radii: it is 1.5e-8 of the middle's
+)
+
+
+def footprint_points(press: Press) -> tuple[FloatArray, FloatArray]:
+    """Return points [m], shape (n, 2), and the share of the force at each, shape (n,), which add up to 1."""
+    nodes, weights = np.polynomial.legendre.leggauss(_RINGS)
+    rho, ring = 0.5 * (1 + nodes), 0.5 * weights
+    if press.profile is Profile.SPHERE:
+        # rho = sin: sqrt(1 - rho^2) is then smooth up to the rim
+        angle = 0.5 * pi * rho
+        rho, ring = np.sin(angle), 0.5 * pi * ring * np.cos(angle) ** 2
+    elif press.profile is Profile.GAUSSIAN:
+        rho, ring = _GAUSSIAN_RIM * rho, ring * np.exp(-2 * (_GAUSSIAN_RIM * rho) ** 2)
+    turn = 2 * pi * (np.arange(_SPOKES) + 0.5) / _SPOKES
+    along, across = press.semi_axes
+    e, n = along * np.outer(rho, np.cos(turn)).ravel(), across * np.outer(rho, np.sin(turn)).ravel()
+    c, s = cos(press.azimuth), sin(press.azimuth)
+    places = np.stack([press.x + c * e - s * n, press.y + s * e + c * n], axis=1)
+    share = np.repeat(ring * rho, _SPOKES)
+    return places, share / share.sum()
