@@ -15,7 +15,7 @@ LAYERS = Tissue(
         Layer(name="fat", thickness=5e-3, young_modulus=8e3, poisson_ratio=0.45, density=950),
     )
 )
-ACROSS = np.linspace(0.0, 0.02, 9)
+ACROSS = np.linspace(0.0, 0.02, 13)
 THROUGH = np.array([-6.2e-3, -4.2e-3, -2.4e-3, -1.2e-3, -2e-4, 0.0])
 BLOCK = block_mesh(LAYERS, (ACROSS, ACROSS, THROUGH), support="base")
 
