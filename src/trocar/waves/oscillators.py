@@ -169,3 +169,28 @@ def _heard(outputs: FloatArray, holds: FloatArray) -> np.ndarray:
     needed += needed % 2
     order = np.argsort(-loudness, axis=1, kind="stable")
     return order[:, :needed]
+
+
+def joined(pieces: list[Oscillators]) -> Oscillators:
+    """Return the groups of all pieces, one after the other; blocks that a piece lacks stay at rest."""
+    blocks = max(piece.matrices.shape[1] for piece in pieces)
+
+    def of(name: str, axis: int) -> FloatArray:
+        return np.concatenate([_widened(getattr(piece, name), axis, blocks) for piece in pieces])
+
+    return Oscillators(
+        matrices=of("matrices", 1),
+        inputs=of("inputs", 1),
+        outputs=of("outputs", 2),
+        entry=of("entry", 1),
+        holds=of("holds", 1),
+    )
+
+
+def _widened(values: FloatArray, axis: int, size: int) -> FloatArray:
+    """Return an array that ends in zeros along an axis, `size` long."""
+    if values.shape[axis] == size:
+        return values
+    shape = list(values.shape)
+    shape[axis] = size - shape[axis]
+    return np.concatenate([values, np.zeros(shape)], axis=axis)

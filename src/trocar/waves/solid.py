@@ -4,7 +4,9 @@ Across the block the series of `series` diagonalise the problem exactly where th
 is left per wavenumber is a small banded system (see `thin_layer`). Two nested sets of wavenumbers serve it: all of
 them follow the load statically (`banded`), and the lower ones besides carry oscillators (`ritz`), whose static part
 is exact. Where the sides are clamped (`edges`, `edges+base`), tractions on them undo what the series leaves free there
-(`clamped`): exact for a static answer, while in motion the clamps act at once.
+(`clamped`): exact for a static answer, while in motion the clamps act at once. Where layers remember (a Prony series), the
+wavenumbers that carry no oscillators creep (`ritz.creeping_oscillators`): they follow the load without inertia, but not
+at once. With `massless` all of them do.
 """
 
 from __future__ import annotations
@@ -14,14 +16,16 @@ from math import inf
 
 import numpy as np
 
+from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
 from trocar.tissues.tissue import Tissue
 from trocar.waves.banded import surface_compliance
 from trocar.waves.clamped import SIDE_MODES, ClampedSides
+from trocar.waves.creep import Creep
 from trocar.waves.footprint import modal_forces
 from trocar.waves.near_field import layered_compliance
 from trocar.waves.oscillators import Oscillators
-from trocar.waves.ritz import ritz_oscillators
+from trocar.waves.ritz import creeping_oscillators, ritz_oscillators
 from trocar.waves.series import Series
 from trocar.waves.state import WaveState, require_step
 from trocar.waves.thin_layer import ThinLayers, Wavenumbers, horizontal_shear, vertical_and_along
@@ -41,9 +45,10 @@ class WaveSolid:
         side_modes: highest m and n that resolve clamped sides.
         order: how many Ritz vectors per direction each moving wavenumber has.
         refinement: cuts every thin layer into this many.
+        massless: leaves inertia and Kelvin-Voigt damping out of `step`: what is left is creep.
 
     Raises:
-        InputError: a size or mode count is impossible.
+        InputError: a size or mode count is impossible, or layers remember where sides are clamped.
     """
 
     def __init__(
@@ -57,12 +62,21 @@ class WaveSolid:
         side_modes: tuple[int, int] = SIDE_MODES,
         order: int = 3,
         refinement: int = 1,
+        massless: bool = False,
     ) -> None:
         self.tissue = tissue
         self.size = size
         self.support = Support(support)
+        if tissue.relaxation_times and self.support.sides_clamped:
+            raise InputError(
+                "prony",
+                "no Prony series where sides are clamped, which WaveSolid cannot yet take",
+                self.support.value,
+                'use support "base", or the fitted membrane',
+            )
         self.layer_names = tissue.layer_names
         self._series = Series(size, modes)
+        self._massless = massless
         self._moving = Series(size, (min(modes[0], dynamic_modes[0]), min(modes[1], dynamic_modes[1])))
         self._clamps = Series(size, (min(modes[0], side_modes[0]), min(modes[1], side_modes[1])))
         self._order = order
@@ -72,6 +86,7 @@ class WaveSolid:
         self._compliance_s = np.full((*shape, 1, 1), np.nan)
         self._unit_response = lru_cache(maxsize=8)(self._response_to_unit_press)
         self._unit_polarised = lru_cache(maxsize=16)(lambda press: _polarised(press, self._moving))
+        self._unit_tractions = lru_cache(maxsize=8)(lambda press: np.stack(_polarised(press, self._series)))
 
     @cached_property
     def _layers_wv(self) -> ThinLayers:
@@ -109,7 +124,8 @@ class WaveSolid:
 
     def init(self) -> WaveState:
         """Return the state at rest at time 0."""
-        return WaveState(0.0, (self.oscillators_wv.rest, self.oscillators_s.rest))
+        moving = () if self._massless else (self.oscillators_wv.rest, self.oscillators_s.rest)
+        return WaveState(0.0, moving + (self._creep.rest if self._creep is not None else ()))
 
     def static(self, load: Load) -> WaveState:
         """Return the equilibrium under a constant load."""
@@ -123,13 +139,28 @@ class WaveSolid:
         """
         require_step(load0, load1, dt)
         if not state.oscillators:
-            held = self.moving_forces(state.load)
-            families = zip((self.oscillators_wv, self.oscillators_s), held, strict=True)
-            state = WaveState(state.time, tuple(family.equilibrium(f) for family, f in families), state.load)
-        start, end = self.moving_forces(load0), self.moving_forces(load1)
-        wv = self.oscillators_wv.step(state.oscillators[0], start[0], end[0], dt)
-        s = self.oscillators_s.step(state.oscillators[1], start[1], end[1], dt)
-        return WaveState(state.time + dt, (wv, s), load1)
+            state = WaveState(state.time, self._held(state.load), state.load)
+        advanced = tuple(
+            family.step(now, f0, f1, dt)
+            for family, now, f0, f1 in zip(
+                self._families, state.oscillators, self.moving_forces(load0), self.moving_forces(load1), strict=False
+            )
+        )
+        if self._creep is not None:
+            creep = state.oscillators[len(self._families) :]
+            advanced += self._creep.step(creep, self._tractions(load0), self._tractions(load1), dt)
+        return WaveState(state.time + dt, advanced, load1)
+
+    @property
+    def _families(self) -> tuple[Oscillators, ...]:
+        return () if self._massless else (self.oscillators_wv, self.oscillators_s)
+
+    def _held(self, load: Load) -> tuple[FloatArray, ...]:
+        """Return what moves, in equilibrium with a load."""
+        moving = tuple(
+            family.equilibrium(f) for family, f in zip(self._families, self.moving_forces(load), strict=False)
+        )
+        return moving + (self._creep.equilibrium(self._tractions(load)) if self._creep is not None else ())
 
     def displacement(self, state: WaveState, points: FloatArray, layer: str | None = None) -> FloatArray:
         """Return the displacement [m] of a layer's upper face at points [m]; both of shape (n, 3).
@@ -197,6 +228,9 @@ class WaveSolid:
         if state.oscillators:
             for waves in self._off_balance(state):
                 table[:, : waves.shape[2], : waves.shape[3]] += waves[face]
+            if self._creep is not None:
+                lack = self._creep.lack(state.oscillators[len(self._families) :], self._tractions(state.load))
+                table += _turned_to_axes(*(part[..., face : face + 1] for part in lack), self._series)[0]
         return table
 
     # What follows at once -------------------------------------------------------------------------------------
@@ -285,13 +319,38 @@ class WaveSolid:
         shapes: FloatArray = (along_x[:, :, None] * along_y[:, None, :]).reshape(len(points), -1)
         return shapes
 
+    @cached_property
+    def _creep(self) -> Creep | None:
+        """What follows the load without inertia, where layers remember."""
+        if not self.tissue.relaxation_times:
+            return None
+        wanted = np.ones(self._series.shape, dtype=bool)
+        if not self._massless:
+            wanted[: self._moving.kx.size, : self._moving.ky.size] = False
+        beside = wanted.copy()
+        beside[0, 0] = wanted[0, :] = wanted[:, 0] = False
+        found = []
+        for layers, which in ((self._layers_wv, wanted), (self._layers_s, beside)):
+            distinct, places = _distinct(self._series, which, self.tissue)
+            found.append(creeping_oscillators(layers, distinct).gathered(places))
+        return Creep(found[0], found[1], wanted, beside)
+
+    def _tractions(self, load: Load) -> FloatArray:
+        """Return the traction's amplitudes across the face, along each wave and beside it [Pa], (3, M + 1, N + 1)."""
+        total = np.zeros((3, *self._series.shape))
+        for press in load:
+            total += press.force * self._unit_tractions(press.with_force(1.0))
+        return total
+
     def _off_balance(self, state: WaveState) -> list[FloatArray]:
-        """Return what a state has beyond the equilibrium with its load, as parts to add up; see `_turned_to_axes`."""
-        families = (self.oscillators_wv, self.oscillators_s)
+        """Return what moving waves have beyond the equilibrium with the load, as parts; see `_turned_to_axes`."""
+        families = self._families
+        if not families:
+            return []
         across, aside = (
             family.read(now - family.equilibrium(held))
             for family, now, held in zip(
-                families, state.oscillators, self.moving_forces(state.load), strict=True
+                families, state.oscillators, self.moving_forces(state.load), strict=False
             )
         )
         rows, columns = self._moving.kx.size, self._moving.ky.size
