@@ -35,12 +35,23 @@ def _wave_membrane(case: Case) -> AnyModel:
     if not (RADII[0] <= smallest and widest <= RADII[-1]):
         radii = (0.75 * smallest, smallest, widest, 1.5 * widest)
     return WaveMembrane.fitted(
-        case.tissue, size=case.size, support=case.support, modes=(min(m, most), min(n, most)), radii=radii
+        case.tissue,
+        size=case.size,
+        support=case.support,
+        modes=(min(m, most), min(n, most)),
+        radii=radii,
+        massless=not case.sampling.dynamic,
     )
 
 
 def _wave_solid(case: Case) -> AnyModel:
-    return WaveSolid(case.tissue, size=case.size, support=case.support, modes=series_modes(case))
+    return WaveSolid(
+        case.tissue,
+        size=case.size,
+        support=case.support,
+        modes=series_modes(case),
+        massless=not case.sampling.dynamic,
+    )
 
 
 def series_modes(case: Case) -> tuple[int, int]:
@@ -69,12 +80,21 @@ def series_modes(case: Case) -> tuple[int, int]:
 
 
 def _fea(case: Case) -> AnyModel:
-    return FEASolid(case.tissue, size=case.size, support=case.support, around=case.load_at(0.0))
+    return _finite_elements(case, None)
 
 
 def _coarse_fea(case: Case) -> AnyModel:
+    return _finite_elements(case, COARSE_MESH)
+
+
+def _finite_elements(case: Case, mesh: MeshSize | None) -> AnyModel:
     return FEASolid(
-        case.tissue, size=case.size, support=case.support, around=case.load_at(0.0), mesh=COARSE_MESH
+        case.tissue,
+        size=case.size,
+        support=case.support,
+        around=case.load_at(0.0),
+        mesh=mesh,
+        massless=not case.sampling.dynamic,
     )
 
 

@@ -89,11 +89,16 @@ class Layer:
         for i, (weight, time) in enumerate(self.prony):
             if not 0 <= weight <= LARGEST_WEIGHT:
                 raise InputError(
-                    self._key(f"prony[{i}]: g"), f"a number from 0 to {LARGEST_WEIGHT:g}", weight, GIVE_LONG_TERM
+                    self._key(f"prony[{i}]: g"),
+                    f"a number from 0 to {LARGEST_WEIGHT:g}",
+                    weight,
+                    GIVE_LONG_TERM,
                 )
             if not SHORTEST_TIME <= time <= LONGEST_TIME:
                 raise InputError(
-                    self._key(f"prony[{i}]: tau"), f"a time from {SHORTEST_TIME:g} to {LONGEST_TIME:g} s", time
+                    self._key(f"prony[{i}]: tau"),
+                    f"a time from {SHORTEST_TIME:g} to {LONGEST_TIME:g} s",
+                    time,
                 )
         times = [time for _, time in self.prony]
         if len(set(times)) != len(times):
@@ -102,6 +107,11 @@ class Layer:
     def relaxing(self, time: float) -> float:
         """Return the weight g of a relaxation time [s]; 0 where the layer has no such term."""
         return sum(weight for weight, own in self.prony if own == time)
+
+    @property
+    def instantaneous_modulus(self) -> float:
+        """Young's modulus under a sudden load, E (1 + sum of g) [Pa]."""
+        return self.young_modulus * (1 + sum(weight for weight, _ in self.prony))
 
     @property
     def shear_modulus(self) -> float:

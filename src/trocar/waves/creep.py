@@ -1,7 +1,7 @@
 """Waves that follow a load without inertia, but not at once: what layers remember delays them.
 
 Every wavenumber without oscillators of its own is a set of real poles (`ritz.creeping_oscillators`). A state says how
-far each pole has come; read as a difference from the equilibrium with the load, it is what the displacement still lacks.
+far each pole has come; read as a difference from the equilibrium with the load, it is what the displacement lacks.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 With a Prony series per layer (see `tissues.layer`) the amplitudes q of one wavenumber obey
 
-    M q'' + C q' + K q + sum over times G_d (q - z_d) = P f,     tau_d z_d' = q - z_d,     G_d = sum over layers g_ld K_l.
+    M q'' + C q' + K q + sum over times G_d (q - z_d) = P f,   tau_d z_d' = q - z_d,   G_d = sum over layers g_ld K_l.
 
 Layers that share a relaxation time share its states, and G_d = K^(1/2) b_d b_d^T K^(1/2) needs only as many of them,
 w_d = b_d^T z_d, as it has rank. In modes with K = 1, M = Z^2 and C = T, and with x = (a, Z a', w), the inverse of
@@ -90,7 +90,7 @@ def decouple_remembering(
         SolverError: a matrix is not positive definite, or the blocks do not rebuild the system.
     """
     modal = _modes(stiffness, memory, mass, damping)
-    count, order = modal.slowness.shape
+    order = modal.slowness.shape[1]
     if _diagonal(modal.damping) and all(_diagonal(part) for part in _by_time(modal)):
         matrices, exit_, entry = _each_by_itself(modal)
     else:
@@ -109,18 +109,18 @@ def decouple_remembering(
     )
 
 
-def creeping(stiffness: FloatArray, memory: Memory) -> tuple[FloatArray, FloatArray]:
+def creeping(stiffness: FloatArray, memory: Memory) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the modes of a system without inertia and damping.
 
     Each is one real pole: x' = -rate (x - equilibrium), equilibrium = from_amplitudes K^-1 P f, and the amplitudes are
-    q = K^-1 P f + sum of to_amplitudes (x - equilibrium), to_amplitudes = rate from_amplitudes^T.
+    q = K^-1 P f + to_amplitudes (x - equilibrium).
 
     Args:
         stiffness: long-term, symmetric positive definite, shape (J, n, n).
         memory: of the same systems.
 
     Returns:
-        Rates [1/s], shape (J, N), and from_amplitudes, shape (J, N, n).
+        Rates [1/s], shape (J, N), from_amplitudes, shape (J, N, n), and to_amplitudes, shape (J, n, N).
     """
     modal = _modes(stiffness, memory)
     root = np.sqrt(modal.times)
@@ -128,7 +128,8 @@ def creeping(stiffness: FloatArray, memory: Memory) -> tuple[FloatArray, FloatAr
     retarded = root[:, None] * (np.eye(len(root)) + gram) * root
     times, vectors = np.linalg.eigh(0.5 * (retarded + np.swapaxes(retarded, -1, -2)))
     seen = np.swapaxes(modal.branches * root @ vectors, -1, -2)
-    return 1 / times, seen @ modal.projector
+    to_amplitudes = modal.shapes @ np.swapaxes(seen / times[..., None], -1, -2)
+    return 1 / times, seen @ modal.projector, to_amplitudes
 
 
 def _modes(
@@ -208,7 +209,9 @@ def _blocks(
         left = np.linalg.pinv(right)
     rebuilt = (right / poles[:, None, :]) @ left
     sound = np.abs(rebuilt - inverse).max(axis=(-2, -1)) <= _RESIDUAL * np.abs(inverse).max(axis=(-2, -1))
-    relaxed = left[..., :order] + left[..., 2 * order : 2 * order + len(times)] @ np.swapaxes(branches, -1, -2)
+    relaxed = left[..., :order] + left[..., 2 * order : 2 * order + len(times)] @ np.swapaxes(
+        branches, -1, -2
+    )
     rates = np.where(
         slow[..., None], -poles[..., None] * relaxed * slowness[:, None, :], left[..., order : 2 * order]
     )
@@ -288,7 +291,9 @@ def _met(
     order, kept = slowness.shape[1], branches.shape[2]
     matrices, columns, rows = split(inverse)
     matrices = np.linalg.inv(matrices)
-    relaxed = rows[..., :order] + np.einsum("jsiw,jaw->jsia", rows[..., 2 * order : 2 * order + kept], branches)
+    relaxed = rows[..., :order] + np.einsum(
+        "jsiw,jaw->jsia", rows[..., 2 * order : 2 * order + kept], branches
+    )
     rates = -np.einsum("jsik,jska,ja->jsia", matrices, relaxed, slowness)
     return matrices, columns[:, :order], np.concatenate([relaxed, rates], axis=-1)
 
@@ -304,4 +309,6 @@ def _symmetric(matrix: FloatArray) -> FloatArray:
 
 def _diagonal(matrices: FloatArray) -> bool:
     off = np.abs(matrices) * (1 - np.eye(matrices.shape[-1]))
-    return bool((off.max(axis=(-2, -1)) <= _DIAGONAL * np.abs(matrices).max(axis=(-2, -1), initial=0.0)).all())
+    return bool(
+        (off.max(axis=(-2, -1)) <= _DIAGONAL * np.abs(matrices).max(axis=(-2, -1), initial=0.0)).all()
+    )

@@ -93,12 +93,13 @@ class Oscillators:
         Raises:
             SolverError: the stiffness is not positive definite.
         """
-        rates, seen = creeping(stiffness, memory)
+        rates, seen, shown = creeping(stiffness, memory)
         if rates.shape[1] % 2:  # an idle pole makes the last block whole
             rates = np.concatenate([rates, rates[:, :1]], axis=1)
             seen = np.concatenate([seen, np.zeros_like(seen[:, :1])], axis=1)
+            shown = np.concatenate([shown, np.zeros_like(shown[..., :1])], axis=2)
         holds = seen @ np.linalg.solve(stiffness, forcing)
-        outputs = reading @ np.swapaxes(rates[..., None] * seen, -1, -2)
+        outputs = reading @ shown
         kept, order = _heard(outputs, holds), reading.shape[2]
         rates = np.take_along_axis(rates, kept, axis=1)
         groups, half = len(rates), kept.shape[1] // 2
