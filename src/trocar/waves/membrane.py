@@ -64,16 +64,13 @@ class WaveMembrane:
         self.support = Support(support)
         self.layer_names = tuple(sheet.name for sheet in stack.sheets)
         self._series = Series(size, modes)
-        self._mass, damping, self._stiffness = _matrices(stack, self._series)
-        memory = _memory(stack, self._series)
-        a, b = size
-        forcing = np.zeros((len(self._mass), len(stack.sheets), 1))
-        forcing[:, 0, 0] = 4 / (a * b)
-        reading = np.broadcast_to(np.eye(len(stack.sheets)), self._mass.shape)
-        self.oscillators = Oscillators.of(self._mass, damping, self._stiffness, forcing, reading, memory)
-        self._creep = None
-        if massless and memory is not None:
-            self._creep = Oscillators.massless(self._stiffness, forcing, reading, memory)
+        self._mass, self._damping, self._stiffness = _matrices(stack, self._series)
+        self._memory = _memory(stack, self._series)
+        layers = len(stack.sheets)
+        self._forcing = np.zeros((len(self._mass), layers, 1))
+        self._forcing[:, 0, 0] = 4 / (size[0] * size[1])
+        self._reading = np.broadcast_to(np.eye(layers), self._mass.shape)
+        self._moving: tuple[Oscillators, ...] = self._creep if massless else (self.oscillators,)
         self._unit_forces = lru_cache(maxsize=16)(self._forces_of_unit_press)
 
     @classmethod
@@ -130,12 +127,19 @@ class WaveMembrane:
         """Return the state at rest at time 0."""
         return WaveState(0.0, tuple(moving.rest for moving in self._moving))
 
-    @property
-    def _moving(self) -> tuple[Oscillators, ...]:
-        """What takes time: nothing where there is neither inertia nor memory."""
-        if self._massless:
-            return () if self._creep is None else (self._creep,)
-        return (self.oscillators,)
+    @cached_property
+    def oscillators(self) -> Oscillators:
+        """One group per mode (m, n), n fastest: from a modal force [N] to u_z of every sheet [m]."""
+        return Oscillators.of(
+            self._mass, self._damping, self._stiffness, self._forcing, self._reading, self._memory
+        )
+
+    @cached_property
+    def _creep(self) -> tuple[Oscillators, ...]:
+        """What takes time without inertia: nothing where sheets do not remember."""
+        if self._memory is None:
+            return ()
+        return (Oscillators.massless(self._stiffness, self._forcing, self._reading, self._memory),)
 
     def released(
         self, *, displacement: Mapping[str, Field] | None = None, velocity: Mapping[str, Field] | None = None
@@ -206,10 +210,10 @@ class WaveMembrane:
         if not self._massless:
             return self.oscillators.read(state.oscillators[0])
         inputs = self._inputs(state.load)
-        held = self.oscillators.read(self.oscillators.equilibrium(inputs))
-        if self._creep is None:
-            return held
-        return held + self._creep.read(state.oscillators[0] - self._creep.equilibrium(inputs))
+        held: FloatArray = np.linalg.solve(self._stiffness, self._forcing * inputs[:, None])[..., 0]
+        for creep, now in zip(self._creep, state.oscillators, strict=True):
+            held = held + creep.read(now - creep.equilibrium(inputs))
+        return held
 
     @property
     def surface_modes(self) -> tuple[int, int]:

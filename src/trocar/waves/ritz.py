@@ -74,10 +74,11 @@ def _reduce(layers: ThinLayers, at: Wavenumbers, order: int, everywhere: bool) -
     spread = np.ptp(layers.retardation)
     uneven = spread > _EVEN * layers.retardation.max() or (layers.prestressed and layers.retardation.any())
     creeps = _creeps_unevenly(layers)
-    sudden = np.linalg.inv(stiffness + layers.remembered(at).sum(axis=0)) if creeps else flexibility
+    branches = layers.remembered(at)
+    sudden = np.linalg.inv(stiffness + branches.sum(axis=0)) if creeps else flexibility
     families = [response]
     if creeps:
-        families += _between(layers, at, stiffness)
+        families += _between(layers, stiffness, branches)
     inertial = families[-1]
     for _ in range(order - 1):
         inertial = sudden @ (layers.mass @ inertial)
@@ -92,23 +93,22 @@ def _reduce(layers: ThinLayers, at: Wavenumbers, order: int, everywhere: bool) -
         stiffness=_identity(basis),
         forcing=transposed[:, :, -components:],
         reading=basis if everywhere else basis[:, _face_unknowns(layers)],
-        memory=_memory(layers, at, basis),
+        memory=_memory(layers, branches, basis) if len(branches) else None,
     )
 
 
 def _creeping(layers: ThinLayers, at: Wavenumbers) -> Oscillators:
     stiffness, components = layers.stiffness(at), layers.components
-    families = [np.linalg.inv(stiffness)[:, :, -components:]]
+    branches = layers.remembered(at)
+    families = [_pushed(stiffness, components)]
     if _creeps_unevenly(layers):
-        families += _between(layers, at, stiffness)
+        families += _between(layers, stiffness, branches)
     basis = _orthonormal(np.concatenate(families[: layers.size // components], axis=2), stiffness)
-    memory = _memory(layers, at, basis)
-    assert memory is not None
     return Oscillators.massless(
         stiffness=_identity(basis),
         forcing=np.swapaxes(basis, 1, 2)[:, :, -components:],
         reading=basis[:, _face_unknowns(layers)],
-        memory=memory,
+        memory=_memory(layers, branches, basis),
     )
 
 
@@ -119,21 +119,28 @@ def _creeps_unevenly(layers: ThinLayers) -> bool:
     )
 
 
-def _between(layers: ThinLayers, at: Wavenumbers, stiffness: FloatArray) -> list[FloatArray]:
+def _between(layers: ThinLayers, stiffness: FloatArray, branches: FloatArray) -> list[FloatArray]:
     """Return the answers at 1/tau of a few relaxation times, the slowest first, and the sudden one at last."""
-    branches, components, times = layers.remembered(at), layers.components, layers.relaxation
+    times = layers.relaxation
     few = np.unique(np.linspace(0, len(times) - 1, min(len(times), _PLACES)).round().astype(int))
     weights = [times / (times[i] + times) for i in few[::-1]]  # s tau/(1 + s tau) at s = 1/tau_i
     return [
-        np.linalg.inv(stiffness + np.tensordot(weight, branches, 1))[:, :, -components:]
+        _pushed(stiffness + np.tensordot(weight, branches, 1), layers.components)
         for weight in (*weights, np.ones(len(times)))
     ]
 
 
-def _memory(layers: ThinLayers, at: Wavenumbers, basis: FloatArray) -> Memory | None:
-    if not len(layers.relaxation):
-        return None
-    reduced = np.swapaxes(basis, 1, 2) @ layers.remembered(at) @ basis
+def _pushed(stiffness: FloatArray, components: int) -> FloatArray:
+    """Return the answer to unit tractions on the top face, shape (J, nc, c)."""
+    tractions = np.eye(stiffness.shape[1])[:, -components:]
+    result: FloatArray = np.linalg.solve(
+        stiffness, np.broadcast_to(tractions, (len(stiffness), *tractions.shape))
+    )
+    return result
+
+
+def _memory(layers: ThinLayers, branches: FloatArray, basis: FloatArray) -> Memory:
+    reduced = np.swapaxes(basis, 1, 2) @ branches @ basis
     return Memory(times=layers.relaxation, stiffness=_symmetric(reduced))
 
 
