@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, seed, settings
 from hypothesis import strategies as st
+from scipy.linalg import eigh
 
 from trocar.errors import InputError
 from trocar.model import Press
@@ -82,6 +83,27 @@ def test_one_mode_without_mass_creeps_as_the_standard_linear_solid(weight):
         lack = mode.read(state - mode.equilibrium(ONE))[0, 0]
         expected = -weight / (1 + weight) * np.exp(-at / (time * (1 + weight))) / stiffness
         assert lack == pytest.approx(expected, abs=1e-12 / stiffness)
+
+
+@pytest.mark.parametrize("damped", [0.0, 1e-5])
+def test_systems_that_relax_evenly_are_standard_linear_solids_in_their_modes(damped):
+    generator = np.random.default_rng(8)
+    roots = generator.normal(size=(2, 5, 4, 4))
+    mass, stiffness = (root @ np.swapaxes(root, 1, 2) + 0.1 * np.eye(4) for root in roots)
+    stiffness *= 1e6
+    weight, time = 0.8, 0.05
+    memory = Memory(np.array([time]), weight * stiffness[None])
+    push = generator.normal(size=(5, 4, 1))
+    waves = Oscillators.of(
+        mass, damped * stiffness, stiffness, push, np.broadcast_to(np.eye(4), mass.shape), memory
+    )
+    for at in (1e-3, 0.02, 0.4):
+        moved = waves.read(waves.step(waves.rest, np.ones((5, 1)), np.ones((5, 1)), at))
+        for system in range(5):
+            squares, shapes = eigh(stiffness[system], mass[system])
+            answers = [sudden_response(1.0, damped * k, k, weight, time, at) for k in squares]
+            expected = shapes @ (answers * (shapes.T @ push[system, :, 0]))
+            assert moved[system] == pytest.approx(expected, abs=1e-10 * np.abs(expected).max())
 
 
 def test_a_held_amplitude_relaxes_as_the_series():

@@ -13,7 +13,9 @@ both without error (Taylor, Pister and Goudreau 1970, Int. J. Numer. Methods Eng
 
 from __future__ import annotations
 
+from functools import reduce
 from math import exp, expm1
+from operator import add
 
 import numpy as np
 import scipy.sparse as sp
@@ -40,13 +42,13 @@ class Branches:
             branch(bricks, tissue.layers, time) for time in self.times
         )
 
-    def at_end(self, dt: float) -> sp.csr_array | float:
+    def at_end(self, dt: float) -> sp.csr_array:
         """Return what the end's displacement is resisted with at the end [N/m]."""
-        return sum((_theta(dt / t) * g for t, g in zip(self.times, self.stiffness, strict=True)), start=0.0)
+        return self._sum([_theta(dt / time) for time in self.times])
 
-    def on_average(self, dt: float) -> sp.csr_array | float:
+    def on_average(self, dt: float) -> sp.csr_array:
         """Return what a change of displacement over a step is resisted with on average [N/m]."""
-        return sum((_kappa(dt / t) * g for t, g in zip(self.times, self.stiffness, strict=True)), start=0.0)
+        return self._sum([_kappa(dt / time) for time in self.times])
 
     def force(self, fields: FloatArray) -> FloatArray:
         """Return the force [N] of fields y [m], shape (D, dofs); (dofs,)."""
@@ -68,6 +70,10 @@ class Branches:
                 for time, field in zip(self.times, fields, strict=True)
             ]
         ).reshape(fields.shape)
+
+    def _sum(self, shares: list[float]) -> sp.csr_array:
+        parts = zip(shares, self.stiffness, strict=True)
+        return sp.csr_array(reduce(add, (share * stiffness for share, stiffness in parts)))
 
     def _force(self, shares: list[float], fields: FloatArray) -> FloatArray:
         total = np.zeros(fields.shape[1])

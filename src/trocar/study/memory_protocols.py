@@ -139,7 +139,7 @@ def hysteresis(model: AnyModel, press: Press, *, rate: float) -> Loop:
     for start, end in itertools.pairwise(forces):
         state = model.step(state, (press.with_force(start),), (press.with_force(end),), dt)
         depths.append(watch(state))
-    curve = Curve(dt * np.arange(len(forces)), forces, np.array(depths))
+    curve = Curve(dt * np.arange(len(forces), dtype=np.float64), forces, np.array(depths))
     work = 0.5 * (forces[1:] + forces[:-1]) * np.diff(curve.deflection)
     return Loop(curve, given=float(work[:_STEPS_A_RAMP].sum()), lost=float(work.sum()))
 

@@ -84,6 +84,11 @@ class Layer:
             raise InputError(self._key(key), expected, value, advice)
 
     def _check_prony(self) -> None:
+        try:
+            terms = tuple((float(weight), float(time)) for weight, time in self.prony)
+        except (TypeError, ValueError):
+            raise InputError(self._key("prony"), "pairs of numbers (g, tau)", self.prony) from None
+        object.__setattr__(self, "prony", terms)
         if len(self.prony) > MOST_TERMS:
             raise InputError(self._key("prony"), f"at most {MOST_TERMS} terms", len(self.prony))
         for i, (weight, time) in enumerate(self.prony):

@@ -87,8 +87,8 @@ def fit_memory(
 
 def relaxed_share(stack: Stack, times: FloatArray, at: Wavenumbers, profile: FloatArray) -> FloatArray:
     """Return each sheet's deflection [m] at each place and row of the profile, shape (D + 1, rows, faces)."""
-    parts = (*stack.sheets, *stack.couplings)
-    weights = np.array([[weight_of(part.prony, time) for time in times] for part in parts])
+    series = [sheet.prony for sheet in stack.sheets] + [bed.prony for bed in stack.couplings]
+    weights = np.array([[weight_of(prony, time) for time in times] for prony in series])
     respond = _response(stack, at, profile)
     return np.array([respond(factor) for factor in 1 + stiffening(times) @ weights.T])
 

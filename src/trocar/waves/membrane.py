@@ -210,7 +210,7 @@ class WaveMembrane:
         if not self._massless:
             return self.oscillators.read(state.oscillators[0])
         inputs = self._inputs(state.load)
-        held: FloatArray = np.linalg.solve(self._stiffness, self._forcing * inputs[:, None])[..., 0]
+        held = np.asarray(np.linalg.solve(self._stiffness, self._forcing * inputs[:, None])[..., 0])
         for creep, now in zip(self._creep, state.oscillators, strict=True):
             held = held + creep.read(now - creep.equilibrium(inputs))
         return held

@@ -290,7 +290,7 @@ def _met(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     order, kept = slowness.shape[1], branches.shape[2]
     matrices, columns, rows = split(inverse)
-    matrices = np.linalg.inv(matrices)
+    matrices = np.asarray(np.linalg.inv(matrices), dtype=np.float64)
     relaxed = rows[..., :order] + np.einsum(
         "jsiw,jaw->jsia", rows[..., 2 * order : 2 * order + kept], branches
     )

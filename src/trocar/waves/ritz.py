@@ -133,10 +133,8 @@ def _between(layers: ThinLayers, stiffness: FloatArray, branches: FloatArray) ->
 def _pushed(stiffness: FloatArray, components: int) -> FloatArray:
     """Return the answer to unit tractions on the top face, shape (J, nc, c)."""
     tractions = np.eye(stiffness.shape[1])[:, -components:]
-    result: FloatArray = np.linalg.solve(
-        stiffness, np.broadcast_to(tractions, (len(stiffness), *tractions.shape))
-    )
-    return result
+    every = np.broadcast_to(tractions, (len(stiffness), *tractions.shape))
+    return np.asarray(np.linalg.solve(stiffness, every), dtype=np.float64)
 
 
 def _memory(layers: ThinLayers, branches: FloatArray, basis: FloatArray) -> Memory:

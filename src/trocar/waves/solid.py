@@ -231,8 +231,12 @@ class WaveSolid:
             for waves in self._off_balance(state):
                 table[:, : waves.shape[2], : waves.shape[3]] += waves[face]
             if self._creep is not None:
-                lack = self._creep.lack(state.oscillators[len(self._families) :], self._tractions(state.load))
-                table += turned_to_axes(*(part[..., face : face + 1] for part in lack), self._series)[0]
+                creep = state.oscillators[len(self._families) :]
+                w, v, s = (
+                    part[..., face : face + 1]
+                    for part in self._creep.lack(creep, self._tractions(state.load))
+                )
+                table += turned_to_axes(w, v, s, self._series)[0]
         return table
 
     # What follows at once -------------------------------------------------------------------------------------

@@ -108,7 +108,8 @@ class Stack:
     @property
     def relaxation_times(self) -> tuple[float, ...]:
         """The different times of all series, ascending [s]; empty where nothing remembers."""
-        return tuple(sorted({t for part in (*self.sheets, *self.couplings) for g, t in part.prony if g > 0}))
+        series = [sheet.prony for sheet in self.sheets] + [bed.prony for bed in self.couplings]
+        return tuple(sorted({time for prony in series for weight, time in prony if weight > 0}))
 
     def compliance(self, k: FloatArray) -> FloatArray:
         """Return every sheet's static amplitude per unit amplitude of pressure on the top one [m/Pa].
