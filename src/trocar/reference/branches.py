@@ -1,7 +1,7 @@
 """Maxwell branches of the finite elements: what a Prony series adds, advanced by a recursion.
 
 A branch of weight g and time tau beside the long-term spring carries the stress g D e of a strain-like e that obeys
-e' = strain' - e/tau (Simo and Hughes 1998, Computational Inelasticity, sec. 10.3). All strains follow from nodal
+e' = strain' - e/tau (Simo and Hughes 1998, Computational Inelasticity, ch. 10). All strains follow from nodal
 displacements, so a branch of every element with the same tau is one nodal field y, y' = u' - y/tau, with the force
 G y, G = sum over layers of g K_layer. Where u is linear over a step of length dt,
 

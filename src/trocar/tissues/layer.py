@@ -1,7 +1,7 @@
 """One layer of tissue: an isotropic, linear slab that damps and remembers, with in-plane prestress.
 
 Its relaxation modulus is a Prony series (generalised Maxwell model; Christensen 1982, Theory of Viscoelasticity,
-sec. 1.6) relative to the long-term modulus, at a constant Poisson's ratio,
+ch. 1) relative to the long-term modulus, at a constant Poisson's ratio,
 
     E(t) = E (1 + sum over i of g_i exp(-t/tau_i)),
 

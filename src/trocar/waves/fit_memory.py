@@ -1,7 +1,7 @@
 """How fitted sheets come to remember: Prony weights under which they relax as the layers do.
 
 The solid's answer to a load in the Laplace domain is that of an elastic one with each layer's stiffness times
-1 + sum of g s tau/(1 + s tau) (the correspondence principle: Christensen 1982, Theory of Viscoelasticity, sec. 2.2),
+1 + sum of g s tau/(1 + s tau) (the correspondence principle: Christensen 1982, Theory of Viscoelasticity, ch. 2),
 and so is the sheets'. At s = 1/tau of every relaxation time and without bound, every face's deflection under every
 tool, as a share of the long-term one, is matched by nonlinear least squares in the weights of sheets and beds. None is
 negative, so the sheets remain passive. Relaxation times are the layers' own.
