@@ -108,8 +108,14 @@ QUICK_MODELS = {**MODELS, "fea": _coarse_fea}  # a fifth of the unknowns, within
 
 
 def usual_models(case: Case) -> tuple[str, ...]:
-    """Return the models a case is run through where none are named: finite elements take no rigid tip."""
-    return ("wave-solid", "wave-membrane") if case.rigid else ("wave-solid", "fea")
+    """Return the models a case is run through where none are named: finite elements take no rigid tip.
+
+    `WaveSolid` takes no Prony series where sides are clamped.
+    """
+    if case.rigid:
+        return ("wave-solid", "wave-membrane")
+    clamped = case.support.sides_clamped and case.tissue.relaxation_times
+    return ("wave-membrane" if clamped else "wave-solid", "fea")
 
 
 def check_names(names: Sequence[str]) -> tuple[str, ...]:
