@@ -11,7 +11,7 @@ the wavenumbers that carry no oscillators creep (`creep`): they follow the load 
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from math import inf
 
 import numpy as np
@@ -21,7 +21,7 @@ from trocar.model import FloatArray, Load, Press, Support
 from trocar.tissues.tissue import Tissue
 from trocar.waves.banded import surface_compliance
 from trocar.waves.clamped import SIDE_MODES, ClampedSides
-from trocar.waves.creep import Creep
+from trocar.waves.creep import Creep, creep_of
 from trocar.waves.near_field import layered_compliance
 from trocar.waves.oscillators import Oscillators
 from trocar.waves.polarised import audible, distinct, polarised, turned_to_axes
@@ -232,10 +232,8 @@ class WaveSolid:
                 table[:, : waves.shape[2], : waves.shape[3]] += waves[face]
             if self._creep is not None:
                 creep = state.oscillators[len(self._families) :]
-                w, v, s = (
-                    part[..., face : face + 1]
-                    for part in self._creep.lack(creep, self._tractions(state.load))
-                )
+                lack = self._creep.lack(creep, self._tractions(state.load), len(self.layer_names))
+                w, v, s = (part[..., face : face + 1] for part in lack)
                 table += turned_to_axes(w, v, s, self._series)[0]
         return table
 
@@ -328,19 +326,18 @@ class WaveSolid:
     @cached_property
     def _creep(self) -> Creep | None:
         """What follows the load without inertia, where layers remember."""
-        beside = np.ones(self._series.shape, dtype=bool)
-        beside[0, 0] = False
-        if not self._massless:
-            beside[: self._moving.kx.size, : self._moving.ky.size] = False
-        if not (self.tissue.relaxation_times and beside.any()):
+        if not self.tissue.relaxation_times:
             return None
-        wanted = beside.copy()
-        wanted[0, :] = wanted[:, 0] = False
-        found = []
-        for layers, which in ((self._layers_wv, wanted), (self._layers_s, beside)):
+        wanted = np.ones(self._series.shape, dtype=bool)
+        wanted[0, 0] = False
+        if not self._massless:
+            wanted[: self._moving.kx.size, : self._moving.ky.size] = False
+
+        def made(layers: ThinLayers, which: np.ndarray) -> Oscillators:
             at, places = distinct(self._series, which, self.tissue)
-            found.append(creeping_oscillators(layers, at).gathered(places))
-        return Creep(found[0], found[1], wanted, beside)
+            return creeping_oscillators(layers, at).gathered(places)
+
+        return creep_of(wanted, partial(made, self._layers_wv), partial(made, self._layers_s))
 
     def _tractions(self, load: Load) -> FloatArray:
         """Return the traction's amplitudes across the face, along each wave and beside it [Pa], (3, M + 1, N + 1)."""
