@@ -1,5 +1,7 @@
 """Every tissue model, bound to the contract."""
 
+from dataclasses import replace
+
 import pytest
 
 from contracts.tissue_model import TissueModelContract
@@ -7,6 +9,7 @@ from sample_tissues import three_layers
 from trocar.model import Press
 from trocar.reference.block import MeshSize
 from trocar.reference.fea import FEASolid
+from trocar.tissues import Tissue
 from trocar.waves.membrane import WaveMembrane
 from trocar.waves.mesh.block import block_mesh, lines_around
 from trocar.waves.mesh.wave_mesh import WaveMesh
@@ -46,6 +49,42 @@ class TestClampedWaveSolid(TestWaveSolid):
         )
 
 
+def remembering():
+    series = ((0.5, 0.002), (1.0, 0.04)), ((0.8, 0.02),), ((1.5, 0.005), (0.4, 0.04))
+    layers = three_layers().layers
+    return Tissue(layers=tuple(replace(layer, prony=own) for layer, own in zip(layers, series, strict=True)))
+
+
+class TestRememberingWaveSolid(TestWaveSolid):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        return WaveSolid(remembering(), size=SIZE, modes=(32, 32), dynamic_modes=(12, 12))
+
+
+class TestCreepingWaveSolid(TestWaveSolid):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        return WaveSolid(remembering(), size=SIZE, modes=(32, 32), massless=True)
+
+
+class TestRememberingWaveMembrane(TissueModelContract):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        return WaveMembrane.fitted(remembering(), size=SIZE, modes=(24, 24))
+
+
+class TestCreepingWaveMembrane(TissueModelContract):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        return WaveMembrane.fitted(
+            remembering(), size=SIZE, support="edges+base", modes=(24, 24), massless=True
+        )
+
+
 class TestFEASolid(TissueModelContract):
     # Average acceleration damps nothing by itself, and 50 ms steps leave the fast modes ringing for long.
     settled = 1e-2
@@ -66,3 +105,12 @@ class TestWaveMesh(TissueModelContract):
     def model(cls):
         around = (Press(x=0.026, y=0.031, radius=3e-3, force=1.0),)
         return WaveMesh(block_mesh(three_layers(), lines_around(three_layers(), SIZE, around)), modes=30)
+
+
+class TestCreepingFEASolid(TissueModelContract):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        around = (Press(x=0.026, y=0.031, radius=0.003, force=1.0),)
+        coarse = MeshSize(per_radius=1.0, growth=1.2, top=0.8, deepening=1.2, side=0.8)
+        return FEASolid(remembering(), size=SIZE, support="base", around=around, mesh=coarse, massless=True)

@@ -1,10 +1,13 @@
 """The compiled tick does what a model's own `step` does under a force held, and reads what it moves."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from trocar.errors import InputError
 from trocar.model import Press, Profile, Support
+from trocar.tissues import Tissue
 from trocar.tissues.catalogue import tissue
 from trocar.waves.membrane import WaveMembrane
 from trocar.waves.patch import (
@@ -41,6 +44,16 @@ UNEVEN = Stack(  # layers damped differently: complex and real pairs of poles
         Coupling(stiffness=1e6),
         Coupling(stiffness=3e5),
     ),
+)
+
+REMEMBERING = Stack(  # layers that relax within a tick, within the walk and after it
+    sheets=(
+        Sheet(name="epidermis", tension_x=5, tension_y=5, areal_density=0.2, prony=((0.5, 1e-3),)),
+        Sheet(
+            name="dermis", tension_x=25.7, tension_y=10, areal_density=1.1, prony=((1.0, 4e-3), (0.3, 90.0))
+        ),
+    ),
+    couplings=(Coupling(stiffness=1e7, prony=((0.5, 1e-3),)), Coupling(stiffness=1e6, prony=((2.0, 90.0),))),
 )
 
 
@@ -86,8 +99,8 @@ def felt(model, state, places, passed=WINDOW):
 
 @pytest.mark.parametrize(
     ("stack", "modes"),
-    [(EVEN, (9, 13)), (UNEVEN, (70, 67)), (skin(), (24, 24))],
-    ids=["even", "uneven", "skin"],
+    [(EVEN, (9, 13)), (UNEVEN, (70, 67)), (REMEMBERING, (20, 17)), (skin(), (24, 24))],
+    ids=["even", "uneven", "remembering", "skin"],
 )
 def test_the_tick_is_the_models_step_with_its_load_held(stack, modes):
     model = WaveMembrane(stack, size=SIZE, modes=modes)
@@ -116,9 +129,12 @@ def test_the_tick_is_the_models_step_with_its_load_held(stack, modes):
         assert one == pytest.approx(other, rel=0, abs=1e-12 * np.abs(other).max() + 1e-12 * peak)
 
 
-def test_it_is_the_layered_solids_step_too(skin):
+@pytest.mark.parametrize("series", [(), ((0.8, 3e-3), (0.5, 20.0))], ids=["forgets", "remembers"])
+def test_it_is_the_layered_solids_step_too(skin, series):
     """Moving waves alone: what a solid answers at once, beyond its slowest modes, a tick's modes follow as well."""
-    model = WaveSolid(skin, size=SIZE, support=Support.BASE, modes=(16, 12), dynamic_modes=(16, 12))
+    top = replace(skin.layers[0], prony=series)
+    layered = Tissue(layers=(top, *skin.layers[1:]), name="skin")
+    model = WaveSolid(layered, size=SIZE, support=Support.BASE, modes=(16, 12), dynamic_modes=(16, 12))
     tick = tick_of(model)
     state, waves = at_rest(tick), model.oscillators_wv
     slow, layers = waves.rest, np.zeros((3, *tick.shape[2:]))

@@ -38,11 +38,19 @@ def stiffness(bricks: Bricks, layers: tuple[Layer, ...]) -> sp.csr_array:
 
 def damping(bricks: Bricks, layers: tuple[Layer, ...]) -> sp.csr_array:
     """Return the Kelvin-Voigt damping [N s/m]: each layer's elastic stiffness times its retardation time."""
-    time = np.array([layer.retardation_time for layer in layers])
+    return _weighted(bricks, layers, np.array([layer.retardation_time for layer in layers]))
+
+
+def branch(bricks: Bricks, layers: tuple[Layer, ...], time: float) -> sp.csr_array:
+    """Return each layer's elastic stiffness [N/m] times its weight of a relaxation time [s]."""
+    return _weighted(bricks, layers, np.array([layer.relaxing(time) for layer in layers]))
+
+
+def _weighted(bricks: Bricks, layers: tuple[Layer, ...], weights: FloatArray) -> sp.csr_array:
     return _elastic(
         bricks,
-        time * np.array([layer.lame_lambda for layer in layers]),
-        time * np.array([layer.shear_modulus for layer in layers]),
+        weights * np.array([layer.lame_lambda for layer in layers]),
+        weights * np.array([layer.shear_modulus for layer in layers]),
         np.zeros((len(layers), 3)),
     )
 

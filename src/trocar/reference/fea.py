@@ -1,16 +1,16 @@
 """The finite-element reference: a layered linear elastic block, static and dynamic, on scikit-fem.
 
-    M u'' + C u' + K u = f(t),    C = sum over layers of tau K_layer
+    M u'' + C u' + K u + sum over branches G y = f(t),    C = sum over layers of tau K_layer
 
-on 20-node bricks with selective reduced integration (`assembly`), a quarter of the block at a time
-(`parity`). Small displacements and strains, isotropic layers perfectly bonded, in-plane prestress as
+(Prony series: `branches`) on 20-node bricks with selective reduced integration (`assembly`), a quarter of the block
+at a time (`parity`). Small displacements and strains, isotropic layers perfectly bonded, in-plane prestress as
 geometric stiffness, dead traction. It shares no code with the wave models it judges.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
+from math import inf, isfinite
 
 import numpy as np
 
@@ -44,6 +44,7 @@ class FEASolid:
         around: presses the mesh is made for: their footprints are finely meshed, their forces do not matter.
             Loads elsewhere are correct but coarse. None: a 1/15 of the shorter side in the middle.
         mesh: how finely.
+        massless: leaves inertia and Kelvin-Voigt damping out of `step`: what is left is creep.
         solver: "superlu", "pardiso" (Intel MKL, from the extra `trocar[pardiso]`) or "auto", the fastest
             installed.
 
@@ -60,8 +61,10 @@ class FEASolid:
         around: Load = (),
         mesh: MeshSize | None = None,
         solver: str = "auto",
+        massless: bool = False,
     ) -> None:
         self._tissue = tissue
+        self._massless = massless
         self._size = _checked_size(size)
         self._support = _checked_support(support)
         self.solver_name = choose_solver(solver)
@@ -105,7 +108,12 @@ class FEASolid:
 
     @property
     def longest_step(self) -> float:
-        """A hundredth of a 40 Hz period [s]: average acceleration then loses 0.03 % of its phase."""
+        """A hundredth of a 40 Hz period [s]: average acceleration then loses 0.03 % of its phase.
+
+        Without inertia a quarter of the shortest relaxation time, or infinite where there is none.
+        """
+        if self._massless:
+            return min(self._tissue.relaxation_times, default=inf) / 4
         return _LONGEST_STEP
 
     def init(self) -> FEAState:
@@ -147,17 +155,24 @@ class FEASolid:
         force0, force1 = self._forces(load0), self._forces(load1)
         parities = {*state.displacement, *state.velocity, *force0, *force1}
         rest = np.zeros(self.bricks.nodes.shape)
-        displacement, velocity = {}, {}
+        relaxed = np.zeros((len(self._tissue.relaxation_times), *rest.shape))
+        displacement, velocity, memory = {}, {}, {}
         for parity in parities:
-            displacement[parity], velocity[parity] = self._system.step(
-                parity,
-                state.displacement.get(parity, rest),
-                state.velocity.get(parity, rest),
-                0.5 * (force0.get(parity, rest) + force1.get(parity, rest)),
-                dt,
+            start = state.displacement.get(parity, rest), state.memory.get(parity, relaxed)
+            first, last = force0.get(parity, rest), force1.get(parity, rest)
+            if self._massless:
+                displacement[parity], memory[parity] = self._system.creep(parity, *start, last, dt)
+                continue
+            displacement[parity], velocity[parity], memory[parity] = self._system.step(
+                parity, start[0], state.velocity.get(parity, rest), start[1], 0.5 * (first + last), dt
             )
         self._parities |= parities
-        return FEAState(time=state.time + dt, displacement=displacement, velocity=velocity)
+        return FEAState(
+            time=state.time + dt,
+            displacement=displacement,
+            velocity=velocity,
+            memory=memory if relaxed.size else {},
+        )
 
     def displacement(self, state: FEAState, points: FloatArray, layer: str | None = None) -> FloatArray:
         """Return the displacement [m], shape (n, 3), of a layer's upper face (None: the top layer's).
@@ -194,6 +209,8 @@ class FEASolid:
                 flat += system.stiffness @ state.displacement[parity].ravel()
             if parity in state.velocity:
                 flat += system.damping @ state.velocity[parity].ravel()
+            if parity in state.memory:
+                flat += system.branches.force(state.memory[parity].reshape(-1, flat.size))
             if parity in forces:
                 flat -= forces[parity].ravel()
             nodal = np.where(system.held, flat.reshape(system.held.shape), 0.0)
@@ -206,7 +223,14 @@ class FEASolid:
         Args:
             state: of this model.
             prestress: whether the layers' prestress is part of it, as it is of what tears them.
+
+        Raises:
+            InputError: the state carries stress in branches of a Prony series, which are not counted.
         """
+        if state.memory:
+            raise InputError(
+                "stress", "an equilibrium, where no Prony branch bears stress", f"a state at {state.time:g} s"
+            )
         values = largest_von_mises(
             self.bricks, self._tissue.layers, self._quarters(state), prestress=prestress
         )

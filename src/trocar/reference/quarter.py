@@ -10,6 +10,7 @@ import scipy.sparse as sp
 from trocar.model import FloatArray, Support
 from trocar.reference.assembly import damping, mass, stiffness
 from trocar.reference.block import held_by_support
+from trocar.reference.branches import Branches
 from trocar.reference.mesh import Bricks, IntArray
 from trocar.reference.ordering import dissection_order
 from trocar.reference.parity import Parity, held_on_mirrors
@@ -18,7 +19,7 @@ from trocar.tissues import Tissue
 
 
 class QuarterSystem:
-    """M u'' + C u' + K u = f on the quarter of a block.
+    """M u'' + C u' + K u + sum of G y = f on the quarter of a block; y are the branches' (see `branches`).
 
     Args:
         bricks: the quarter's mesh.
@@ -29,12 +30,14 @@ class QuarterSystem:
 
     def __init__(self, bricks: Bricks, tissue: Tissue, support: Support, solver: str) -> None:
         self.bricks = bricks
+        self._tissue = tissue
         self._layers = tissue.layers
         self._solver = solver
         self.held = held_by_support(bricks, support)
         self._free: dict[Parity, IntArray] = {}
         self._static: dict[Parity, Factorisation] = {}
         self._dynamic: dict[tuple[Parity, float], Factorisation] = {}
+        self._creeping: dict[tuple[Parity, float], Factorisation] = {}
 
     @cached_property
     def stiffness(self) -> sp.csr_array:
@@ -50,6 +53,11 @@ class QuarterSystem:
     def mass(self) -> sp.csr_array:
         """M [kg]."""
         return mass(self.bricks, self._layers)
+
+    @cached_property
+    def branches(self) -> Branches:
+        """What the layers remember with."""
+        return Branches(self.bricks, self._tissue)
 
     @cached_property
     def _order(self) -> IntArray:
@@ -75,36 +83,75 @@ class QuarterSystem:
         parity: Parity,
         displacement: FloatArray,
         velocity: FloatArray,
+        memory: FloatArray,
         mean_force: FloatArray,
         dt: float,
-    ) -> tuple[FloatArray, FloatArray]:
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Advance by dt [s] with Newmark's average acceleration, in displacement and velocity alone.
 
             u1 - u0 = dt (v0 + v1) / 2
-            M (v1 - v0) + dt C (v0 + v1) / 2 + dt K (u0 + u1) / 2 = dt (f0 + f1) / 2
+            M (v1 - v0) + dt C (v0 + v1) / 2 + dt K (u0 + u1) / 2 + dt G mean(y) = dt (f0 + f1) / 2
 
         Second order, stable for every dt, and without damping it keeps v M v / 2 + u K u / 2 (Newmark 1959;
-        Hughes 1987, sec. 9.1). No acceleration is stored, so a load may jump between two steps.
+        Hughes 1987, sec. 9.1). No acceleration is stored, so a load may jump between two steps. The branches' mean
+        is that of u going straight from u0 to u1, so they never give more work than they took.
 
         Args:
             parity: of the part.
             displacement: at the start [m], shape (3, nodes).
             velocity: at the start [m/s], shape (3, nodes).
+            memory: y at the start [m], shape (D, 3, nodes).
             mean_force: mean of the nodal forces at start and end [N], shape (3, nodes).
             dt: [s].
 
         Returns:
-            Displacement and velocity at the end.
+            Displacement, velocity and memory at the end.
         """
         free = self.free(parity)
         key = (parity, dt)
+        remembers = len(memory) > 0
         if key not in self._dynamic:
             matrix = self.mass + 0.5 * dt * self.damping + 0.25 * dt**2 * self.stiffness
+            if remembers:
+                matrix = matrix + 0.5 * dt**2 * self.branches.on_average(dt)
             self._dynamic[key] = Factorisation(_submatrix(matrix, free), self._solver)
-        u, v = displacement.ravel(), velocity.ravel()
-        momentum = dt * (mean_force.ravel() - self.damping @ v - self.stiffness @ (u + 0.5 * dt * v))
-        change = self._spread(self._dynamic[key].solve(momentum[free]), free)
-        return displacement + dt * (velocity + 0.5 * change), velocity + change
+        u, v, fields = displacement.ravel(), velocity.ravel(), memory.reshape(len(memory), displacement.size)
+        force = mean_force.ravel() - self.damping @ v - self.stiffness @ (u + 0.5 * dt * v)
+        if remembers:
+            force -= self.branches.mean_force(fields, dt) + self.branches.on_average(dt) @ (dt * v)
+        change = self._spread(self._dynamic[key].solve(dt * force[free]), free)
+        moved = dt * (velocity + 0.5 * change)
+        if remembers:
+            memory = self.branches.advanced(fields, moved.ravel(), dt).reshape(memory.shape)
+        return displacement + moved, velocity + change, memory
+
+    def creep(
+        self, parity: Parity, displacement: FloatArray, memory: FloatArray, force: FloatArray, dt: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Advance by dt [s] without inertia and damping, to equilibrium with a force at the end.
+
+        Exact where the displacement is linear in time over the step; else second order.
+
+        Args:
+            parity: of the part.
+            displacement: at the start [m], shape (3, nodes).
+            memory: y at the start [m], shape (D, 3, nodes).
+            force: nodal, at the end [N], shape (3, nodes).
+            dt: [s].
+
+        Returns:
+            Displacement and memory at the end.
+        """
+        free, fields = self.free(parity), memory.reshape(len(memory), displacement.size)
+        key = (parity, dt)
+        if key not in self._creeping:
+            matrix = self.stiffness + self.branches.at_end(dt) if len(memory) else self.stiffness
+            self._creeping[key] = Factorisation(_submatrix(matrix, free), self._solver)
+        right = force.ravel() - self.stiffness @ displacement.ravel()
+        if len(memory):
+            right -= self.branches.force_at_end(fields, dt)
+        moved = self._spread(self._creeping[key].solve(right[free]), free)
+        return displacement + moved, self.branches.advanced(fields, moved.ravel(), dt).reshape(memory.shape)
 
     def _spread(self, values: FloatArray, free: IntArray) -> FloatArray:
         field = np.zeros(self.held.size)

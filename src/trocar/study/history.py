@@ -23,6 +23,7 @@ Progress = Callable[[float], None]
 _FORCES = 14  # of one rigid tip that are computed; depth is a smooth power of the force in between
 _SAME = 1e-6  # forces that differ by less are one
 _FORCE_RATIO = 300.0  # from the largest of them to the smallest
+_MOST_CREEPING_STEPS = 400  # without inertia: between corners of the load, creep is smooth
 _MOST_STEPS = 4000  # in one case: a longer one takes longer steps, its load being slower too
 
 
@@ -85,7 +86,7 @@ def run(
     furthest: State | None = None
     if case.rigid:
         depths, setup, peaks = _rigid(case, model, times, progress)
-    elif case.sampling.dynamic:
+    elif case.sampling.dynamic or case.tissue.relaxation_times:
         depths, setup, furthest = _moving(case, model, times, progress)
     else:
         depths, setup = _quasi_static(case, model, times, progress)
@@ -182,14 +183,18 @@ def _moving(
     points = search_points(case.size, case.load_at(0.0))
     layers = case.tissue.layer_names
     state = furthest = model.init()
-    longest = max(model.longest_step, case.duration / _MOST_STEPS)
+    most = _MOST_STEPS if case.sampling.dynamic else _MOST_CREEPING_STEPS
+    longest = max(model.longest_step, case.duration / most)
     depths = np.zeros((len(layers), len(times)))
     setup = process_time()
     for i, (start, end) in enumerate(itertools.pairwise(times)):
         count = max(1, int(np.ceil((end - start) / longest - 1e-9)))
         marks = np.linspace(start, end, count + 1)
         for t0, t1 in itertools.pairwise(marks):
-            state = model.step(state, case.load_at(t0), case.load_at(t1), t1 - t0)
+            dt = float(
+                f"{t1 - t0:.12g}"
+            )  # steps that differ by rounding are one to whoever keeps what a step needs
+            state = model.step(state, case.load_at(t0), case.load_at(t1), dt)
         depths[:, i + 1] = deflections(model, state, points, layers).max(axis=1)
         if depths[:, i + 1].max() > depths[:, : i + 1].max():
             furthest = state

@@ -37,12 +37,23 @@ def _wave_membrane(case: Case) -> AnyModel:
     if not (RADII[0] <= smallest and widest <= RADII[-1]):
         radii = (0.75 * smallest, smallest, widest, 1.5 * widest)
     return WaveMembrane.fitted(
-        case.tissue, size=case.size, support=case.support, modes=(min(m, most), min(n, most)), radii=radii
+        case.tissue,
+        size=case.size,
+        support=case.support,
+        modes=(min(m, most), min(n, most)),
+        radii=radii,
+        massless=not case.sampling.dynamic,
     )
 
 
 def _wave_solid(case: Case) -> AnyModel:
-    return WaveSolid(case.tissue, size=case.size, support=case.support, modes=series_modes(case))
+    return WaveSolid(
+        case.tissue,
+        size=case.size,
+        support=case.support,
+        modes=series_modes(case),
+        massless=not case.sampling.dynamic,
+    )
 
 
 def _wave_mesh(case: Case) -> AnyModel:
@@ -76,12 +87,21 @@ def series_modes(case: Case) -> tuple[int, int]:
 
 
 def _fea(case: Case) -> AnyModel:
-    return FEASolid(case.tissue, size=case.size, support=case.support, around=case.load_at(0.0))
+    return _finite_elements(case, None)
 
 
 def _coarse_fea(case: Case) -> AnyModel:
+    return _finite_elements(case, COARSE_MESH)
+
+
+def _finite_elements(case: Case, mesh: MeshSize | None) -> AnyModel:
     return FEASolid(
-        case.tissue, size=case.size, support=case.support, around=case.load_at(0.0), mesh=COARSE_MESH
+        case.tissue,
+        size=case.size,
+        support=case.support,
+        around=case.load_at(0.0),
+        mesh=mesh,
+        massless=not case.sampling.dynamic,
     )
 
 
@@ -96,8 +116,14 @@ QUICK_MODELS = {**MODELS, "fea": _coarse_fea}  # a fifth of the unknowns, within
 
 
 def usual_models(case: Case) -> tuple[str, ...]:
-    """Return the models a case is run through where none are named: finite elements take no rigid tip."""
-    return ("wave-solid", "wave-membrane") if case.rigid else ("wave-solid", "fea")
+    """Return the models a case is run through where none are named: finite elements take no rigid tip.
+
+    `WaveSolid` takes no Prony series where sides are clamped.
+    """
+    if case.rigid:
+        return ("wave-solid", "wave-membrane")
+    clamped = case.support.sides_clamped and case.tissue.relaxation_times
+    return ("wave-membrane" if clamped else "wave-solid", "fea")
 
 
 def check_names(names: Sequence[str]) -> tuple[str, ...]:

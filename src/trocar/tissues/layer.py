@@ -1,4 +1,12 @@
-"""One layer of tissue: an isotropic, linear elastic slab with Kelvin-Voigt damping and in-plane prestress."""
+"""One layer of tissue: an isotropic, linear slab that damps and remembers, with in-plane prestress.
+
+Its relaxation modulus is a Prony series (generalised Maxwell model; Christensen 1982, Theory of Viscoelasticity,
+ch. 1) relative to the long-term modulus, at a constant Poisson's ratio,
+
+    E(t) = E (1 + sum over i of g_i exp(-t/tau_i)),
+
+beside a Kelvin-Voigt damping C = tau K. A prestress neither relaxes nor damps.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +14,14 @@ from dataclasses import dataclass
 from math import inf, isfinite, pi
 
 from trocar.errors import InputError
+
+Prony = tuple[tuple[float, float], ...]
+"""Terms (g, tau) of a Prony series: weight [1] and relaxation time [s]."""
+
+MOST_TERMS = 8  # of one layer, and relaxation times of one tissue: each is a state of every mode
+LARGEST_WEIGHT = 1e3  # [1]
+GIVE_LONG_TERM = "g is relative to the long-term modulus"
+SHORTEST_TIME, LONGEST_TIME = 1e-5, 1e5  # [s] relaxation times
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,13 +31,15 @@ class Layer:
     Args:
         name: what the layer is called; unique within a tissue.
         thickness: [m].
-        young_modulus: [Pa].
+        young_modulus: [Pa]; the long-term one where there is a Prony series.
         poisson_ratio: [1], at least 0 and below 0.5.
         density: [kg/m3].
         prestress_x: normal stress along x in the rest state [Pa], tension positive.
         prestress_y: the same along y [Pa].
         loss_factor: tangent of the loss angle at `loss_frequency` [1]; 0 means undamped.
         loss_frequency: the frequency the loss factor was measured at [Hz].
+        prony: terms (g, tau) of the relaxation modulus: weight relative to the long-term modulus [1], 0 or above,
+            and relaxation time [s], each time once; empty where the layer does not remember.
         tensile_strength: stress at which the layer tears [Pa]; infinite where unknown.
 
     Raises:
@@ -37,6 +55,7 @@ class Layer:
     prestress_y: float = 0.0
     loss_factor: float = 0.0
     loss_frequency: float = 50.0
+    prony: Prony = ()
     tensile_strength: float = inf
 
     def __post_init__(self) -> None:
@@ -54,6 +73,7 @@ class Layer:
         )
         if not self.tensile_strength > 0:
             raise InputError(self._key("tensile_strength"), "a number above 0", self.tensile_strength)
+        self._check_prony()
 
     def _key(self, key: str) -> str:
         return f"layer {self.name!r}: {key}"
@@ -62,6 +82,41 @@ class Layer:
         value = getattr(self, key)
         if not (isfinite(value) and holds):
             raise InputError(self._key(key), expected, value, advice)
+
+    def _check_prony(self) -> None:
+        try:
+            terms = tuple((float(weight), float(time)) for weight, time in self.prony)
+        except (TypeError, ValueError):
+            raise InputError(self._key("prony"), "pairs of numbers (g, tau)", self.prony) from None
+        object.__setattr__(self, "prony", terms)
+        if len(self.prony) > MOST_TERMS:
+            raise InputError(self._key("prony"), f"at most {MOST_TERMS} terms", len(self.prony))
+        for i, (weight, time) in enumerate(self.prony):
+            if not 0 <= weight <= LARGEST_WEIGHT:
+                raise InputError(
+                    self._key(f"prony[{i}]: g"),
+                    f"a number from 0 to {LARGEST_WEIGHT:g}",
+                    weight,
+                    GIVE_LONG_TERM,
+                )
+            if not SHORTEST_TIME <= time <= LONGEST_TIME:
+                raise InputError(
+                    self._key(f"prony[{i}]: tau"),
+                    f"a time from {SHORTEST_TIME:g} to {LONGEST_TIME:g} s",
+                    time,
+                )
+        times = [time for _, time in self.prony]
+        if len(set(times)) != len(times):
+            raise InputError(self._key("prony"), "every tau once", times, "add the weights of equal times")
+
+    def relaxing(self, time: float) -> float:
+        """Return the weight g of a relaxation time [s]; 0 where the layer has no such term."""
+        return sum(weight for weight, own in self.prony if own == time)
+
+    @property
+    def instantaneous_modulus(self) -> float:
+        """Young's modulus under a sudden load, E (1 + sum of g) [Pa]."""
+        return self.young_modulus * (1 + sum(weight for weight, _ in self.prony))
 
     @property
     def shear_modulus(self) -> float:

@@ -153,7 +153,7 @@ class LayerRecord:
 
     def layer(self) -> Layer:
         """Return the layer in SI, for a model."""
-        values = {item.key: item.si for item in self.properties}
+        values: dict[str, Any] = {item.key: item.si for item in self.properties}
         return Layer(name=self.name, **values)
 
 

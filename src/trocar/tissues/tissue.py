@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from trocar.errors import InputError
-from trocar.tissues.layer import Layer
+from trocar.tissues.layer import MOST_TERMS, Layer
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,7 +17,7 @@ class Tissue:
         name: what the tissue is called in reports.
 
     Raises:
-        InputError: there is no layer, or two share a name.
+        InputError: there is no layer, two share a name, or there are too many different relaxation times.
     """
 
     layers: tuple[Layer, ...]
@@ -29,6 +29,13 @@ class Tissue:
         names = self.layer_names
         if len(set(names)) != len(names):
             raise InputError(f"tissue {self.name!r}: layers", "every name once", names)
+        if len(self.relaxation_times) > MOST_TERMS:
+            raise InputError(
+                f"tissue {self.name!r}: prony",
+                f"at most {MOST_TERMS} different times in all layers together",
+                len(self.relaxation_times),
+                "let layers share their times",
+            )
 
     @property
     def layer_names(self) -> tuple[str, ...]:
@@ -39,6 +46,11 @@ class Tissue:
     def thickness(self) -> float:
         """Thickness of all layers together [m]."""
         return sum(layer.thickness for layer in self.layers)
+
+    @property
+    def relaxation_times(self) -> tuple[float, ...]:
+        """The different times of the layers' Prony series, ascending [s]; empty where no layer remembers."""
+        return tuple(sorted({time for layer in self.layers for weight, time in layer.prony if weight > 0}))
 
     def index(self, layer: str | None) -> int:
         """Return the place of a layer by name; None means the top one.

@@ -36,12 +36,12 @@ _RESIDUAL = 1e-9  # of the rebuilt system matrix; more means poles that met in a
 
 @dataclass(frozen=True)
 class Blocks:
-    """Independent blocks x' = A x + entry [0; M^-1 P f] of J systems of n amplitudes.
+    """Independent blocks x' = A x + entry [0; M^-1 P f] of J systems of n amplitudes: s = n, or more with memory.
 
     Attributes:
-        matrices: A [1/s], shape (J, n, 2, 2).
-        entry: from (q, q') to x, shape (J, n, 2, 2n).
-        exit: from x to q, shape (J, n, n, 2): amplitude, block, component are axes 1, 2, 3.
+        matrices: A [1/s], shape (J, s, 2, 2).
+        entry: from (q, q') to x, shape (J, s, 2, 2n); what remembers has been held at q for ever.
+        exit: from x to q, shape (J, n, s, 2): amplitude, block, component are axes 1, 2, 3.
     """
 
     matrices: FloatArray
@@ -141,7 +141,7 @@ def _fill_complex_modes(
     system[:, modes, order + modes] = w
     system[:, order + modes, modes] = -w
     system[:, order:, order:] = -damping[where]
-    matrices, columns, rows = _split(system)
+    matrices, columns, rows = split(system)
     blocks.matrices[where], blocks.entry[where], blocks.exit[where] = matrices, rows, columns[:, :order]
 
 
@@ -162,7 +162,7 @@ def _fill_overdamped(
     system[:, :order, :order] = -np.swapaxes(modes, -1, -2) @ damping[where] @ modes
     system[:, at, order + at] = -slowness
     system[:, order + at, at] = slowness
-    matrices, columns, rows = _split(system)
+    matrices, columns, rows = split(system)
     blocks.matrices[where] = np.linalg.inv(matrices)
     blocks.exit[where] = np.einsum("jam,jmsi->jasi", modes, columns[:, :order])
     blocks.entry[where] = np.concatenate(
@@ -174,7 +174,7 @@ def _fill_overdamped(
     )
 
 
-def _split(system: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def split(system: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return real blocks of J matrices of even size a: sum over blocks of columns block rows = system.
 
     Returns:
@@ -190,7 +190,7 @@ def _split(system: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     real = (poles.imag == 0).sum(axis=-1)
     for count in np.unique(real):
         alike = real == count
-        matrices[alike], columns[alike], rows[alike] = _pair(poles[alike], right[alike], left[alike], count)
+        matrices[alike], columns[alike], rows[alike] = paired(poles[alike], right[alike], left[alike], count)
     for row in np.flatnonzero(condition > _ILL_CONDITIONED):
         found = _pair_with_double_pole(system[row], poles[row], left[row], right[row])
         if found is not None:
@@ -205,7 +205,7 @@ def _split(system: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     return matrices, columns, rows
 
 
-def _pair(
+def paired(
     poles: np.ndarray, right: np.ndarray, left: np.ndarray, real: int
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return real blocks of J systems with `real` real poles each: sum over blocks of columns A rows = system.
@@ -271,7 +271,7 @@ def _pair_with_double_pole(
     rest_left = np.linalg.inv(rest_right) @ basis[:, 2:].T
     real = int((rest_poles.imag == 0).sum())
     vectors = (rest_columns @ rest_right).astype(complex)
-    matrices, columns, rows = _pair(
+    matrices, columns, rows = paired(
         rest_poles[None].astype(complex), vectors[None], rest_left[None].astype(complex), real
     )
     return (

@@ -7,6 +7,7 @@ Three linear-response moments of the solid at the top face are matched:
                 nonlinear least squares in their logarithms
     damping     p^T K^-1 C K^-1 p, the first moment in time; linear in the retardation times of sheets and beds
     inertia     p^T K^-1 M K^-1 p, the second; linear in the areal densities
+    memory      where layers have a Prony series: see `fit_memory`
 
 The last two are bounded least squares, weighted by what each wavenumber adds to the deflection under the tool: no
 density is negative, and retardation times keep to a few times those of the layers. Without the upper
@@ -29,6 +30,7 @@ from trocar.model import FloatArray, Profile, Support
 from trocar.tissues.layer import Layer
 from trocar.tissues.tissue import Tissue
 from trocar.waves.clamped import SIDE_MODES, ClampedSides
+from trocar.waves.fit_memory import fit_memory, relaxed_share, relaxing_solid
 from trocar.waves.footprint import transform
 from trocar.waves.series import Series
 from trocar.waves.stack import Coupling, Stack, derived_stack, sheet_compliance
@@ -53,7 +55,8 @@ class Fit:
     Attributes:
         stack: the coefficients.
         error: largest relative difference from the solid, of any face's deflection under a tool of any of the radii,
-            in the middle of the block or in a corner [1]. Some tissues no stack of sheets can imitate: look at it.
+            in the middle of the block or in a corner, also while layers relax [1]. Some tissues no stack of sheets can
+            imitate: look at it.
     """
 
     stack: Stack
@@ -101,16 +104,31 @@ def fitted_stack(
     target = _target(even, size, support, radii)
     stack = _fit_static(even, target, support)
     stack = _fit_rates(even, stack, target)
+    error = _error(stack, target)
+    if tissue.relaxation_times:
+        stack, missed = _fit_memory(even, stack, target, support)
+        error = max(error, missed)
     sheets = []
     for sheet, layer in zip(stack.sheets, tissue.layers, strict=True):
         half = 0.5 * (layer.prestress_x - layer.prestress_y) * layer.thickness
         sheets.append(replace(sheet, tension_x=sheet.tension_x + half, tension_y=sheet.tension_y - half))
-    return Fit(stack=replace(stack, sheets=tuple(sheets)), error=_error(stack, target))
+    return Fit(stack=replace(stack, sheets=tuple(sheets)), error=error)
 
 
 def _error(stack: Stack, target: _Target) -> float:
     reached = target.under @ _response(_coefficients(stack), len(stack.sheets), target.at)
     return float(np.abs(reached / target.deflection[: target.tools] - 1).max())
+
+
+def _fit_memory(tissue: Tissue, stack: Stack, target: _Target, support: Support) -> tuple[Stack, float]:
+    """Return the stack with series, and how far it then misses the solid's deflection while both relax."""
+    layers = vertical_and_along(tissue, base_held=support.base_held)
+    longterm = target.under @ target.compliance
+    wanted = np.array([target.under @ place for place in relaxing_solid(layers, target.at)]) / longterm
+    stack = fit_memory(tissue, stack, target.at, wanted, target.under)
+    reached = relaxed_share(stack, layers.relaxation, target.at, target.under)
+    missed = reached / (wanted * target.deflection[: target.tools]) - 1
+    return stack, float(np.abs(missed).max())
 
 
 def _evenly_prestressed(layer: Layer) -> Layer:

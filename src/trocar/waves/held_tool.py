@@ -68,10 +68,12 @@ def hold(model: WaveSolid, tool: Press, dt: float) -> HeldTool:
         dt: length of a step [s].
 
     Raises:
-        InputError: the tool is tilted, or the sides are clamped.
+        InputError: the tool is tilted, the sides are clamped, or a layer has a Prony series.
     """
     if model.support.sides_clamped:
         raise InputError("held tool: support", "simply supported sides, base", model.support.value)
+    if model.tissue.relaxation_times:
+        raise InputError("held tool: prony", "layers without a Prony series", model.tissue.relaxation_times)
     if tool.tilt > 0:
         raise InputError("held tool: tilt", "an upright tool, 0", tool.tilt)
     unit = tool.with_force(1.0)

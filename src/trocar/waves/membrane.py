@@ -20,10 +20,11 @@ from trocar.model import FloatArray, Load, Press, Support
 from trocar.tissues.tissue import Tissue
 from trocar.waves.fit import RADII, fitted_stack
 from trocar.waves.footprint import modal_forces
+from trocar.waves.memory import Memory
 from trocar.waves.near_field import SMOOTH, layered_compliance
 from trocar.waves.oscillators import Oscillators
 from trocar.waves.series import Field, Series
-from trocar.waves.stack import Stack, derived_stack
+from trocar.waves.stack import Stack, derived_stack, weight_of
 from trocar.waves.state import WaveState, require_step
 
 
@@ -37,6 +38,7 @@ class WaveMembrane:
         support: whose block the coefficients describe; told to whoever asks, it changes nothing here.
         fit_error: how far the fit that made the coefficients missed its target [1]; None where there was none.
         tissue: the layers the coefficients imitate, where they do: waves too short for sheets are then the layers' own.
+        massless: leaves inertia and Kelvin-Voigt damping out of `step`: what is left is creep, where sheets remember.
 
     Raises:
         InputError: a size or mode count is impossible.
@@ -52,21 +54,23 @@ class WaveMembrane:
         support: Support | str = Support.EDGES,
         fit_error: float | None = None,
         tissue: Tissue | None = None,
+        massless: bool = False,
     ) -> None:
         self.stack = stack
+        self._massless = massless
         self.fit_error = fit_error
         self._tissue = tissue
         self.size = size
         self.support = Support(support)
         self.layer_names = tuple(sheet.name for sheet in stack.sheets)
         self._series = Series(size, modes)
-        mass, damping, stiffness = _matrices(stack, self._series)
-        self._mass, self._stiffness = mass, stiffness
-        a, b = size
-        forcing = np.zeros((len(mass), len(stack.sheets), 1))
-        forcing[:, 0, 0] = 4 / (a * b)
-        reading = np.broadcast_to(np.eye(len(stack.sheets)), mass.shape)
-        self.oscillators = Oscillators.of(mass, damping, stiffness, forcing, reading)
+        self._mass, self._damping, self._stiffness = _matrices(stack, self._series)
+        self._memory = _memory(stack, self._series)
+        layers = len(stack.sheets)
+        self._forcing = np.zeros((len(self._mass), layers, 1))
+        self._forcing[:, 0, 0] = 4 / (size[0] * size[1])
+        self._reading = np.broadcast_to(np.eye(layers), self._mass.shape)
+        self._moving: tuple[Oscillators, ...] = self._creep if massless else (self.oscillators,)
         self._unit_forces = lru_cache(maxsize=16)(self._forces_of_unit_press)
 
     @classmethod
@@ -90,10 +94,19 @@ class WaveMembrane:
         support: Support | str = Support.BASE,
         modes: tuple[int, int] = (48, 48),
         radii: tuple[float, ...] = RADII,
+        massless: bool = False,
     ) -> WaveMembrane:
         """Build one with coefficients fitted to `WaveSolid`'s response (see `fit`) under tools of these radii [m]."""
         fit = fitted_stack(tissue, size=size, support=Support(support), radii=radii)
-        return cls(fit.stack, size=size, modes=modes, support=support, fit_error=fit.error, tissue=tissue)
+        return cls(
+            fit.stack,
+            size=size,
+            modes=modes,
+            support=support,
+            fit_error=fit.error,
+            tissue=tissue,
+            massless=massless,
+        )
 
     @property
     def modes(self) -> tuple[int, int]:
@@ -112,7 +125,21 @@ class WaveMembrane:
 
     def init(self) -> WaveState:
         """Return the state at rest at time 0."""
-        return WaveState(0.0, (self.oscillators.rest,))
+        return WaveState(0.0, tuple(moving.rest for moving in self._moving))
+
+    @cached_property
+    def oscillators(self) -> Oscillators:
+        """One group per mode (m, n), n fastest: from a modal force [N] to u_z of every sheet [m]."""
+        return Oscillators.of(
+            self._mass, self._damping, self._stiffness, self._forcing, self._reading, self._memory
+        )
+
+    @cached_property
+    def _creep(self) -> tuple[Oscillators, ...]:
+        """What takes time without inertia: nothing where sheets do not remember."""
+        if self._memory is None:
+            return ()
+        return (Oscillators.massless(self._stiffness, self._forcing, self._reading, self._memory),)
 
     def released(
         self, *, displacement: Mapping[str, Field] | None = None, velocity: Mapping[str, Field] | None = None
@@ -123,9 +150,13 @@ class WaveMembrane:
             displacement: for each layer named, a function of x, y [m] that gives u_z [m].
             velocity: likewise, du_z/dt [m/s].
 
+        Sheets that remember were held in that shape for ever.
+
         Raises:
-            InputError: a layer is unknown, or a field is not finite on the block.
+            InputError: a layer is unknown, a field is not finite on the block, or the model has no inertia.
         """
+        if self._massless:
+            raise InputError("released", "a model with inertia", "a massless one")
         layers = len(self.layer_names)
         start = np.zeros((len(self._mass), 2 * layers))
         for offset, fields in ((0, displacement or {}), (layers, velocity or {})):
@@ -143,13 +174,17 @@ class WaveMembrane:
             InputError: dt is not above 0, or the loads hold different numbers of presses.
         """
         require_step(load0, load1, dt)
-        (oscillators,) = state.oscillators
-        advanced = self.oscillators.step(oscillators, self._inputs(load0), self._inputs(load1), dt)
-        return WaveState(state.time + dt, (advanced,), load1)
+        first, last = self._inputs(load0), self._inputs(load1)
+        advanced = tuple(
+            moving.step(now, first, last, dt)
+            for moving, now in zip(self._moving, state.oscillators, strict=True)
+        )
+        return WaveState(state.time + dt, advanced, load1)
 
     def static(self, load: Load) -> WaveState:
         """Return the equilibrium under a constant load."""
-        return WaveState(0.0, (self.oscillators.equilibrium(self._inputs(load)),), load)
+        inputs = self._inputs(load)
+        return WaveState(0.0, tuple(moving.equilibrium(inputs) for moving in self._moving), load)
 
     def displacement(self, state: WaveState, points: FloatArray, layer: str | None = None) -> FloatArray:
         """Return the displacement [m] of a layer at points [m]; both of shape (n, 3). Only u_z is not zero.
@@ -166,10 +201,19 @@ class WaveMembrane:
         if layer is not None and layer not in self.layer_names:
             raise InputError("layer", f"one of {', '.join(self.layer_names)}", layer)
         place = 0 if layer is None else self.layer_names.index(layer)
-        (oscillators,) = state.oscillators
         table = np.zeros(self._series.shape)
-        table[1:, 1:] = self.oscillators.read(oscillators)[:, place].reshape(self.modes)
+        table[1:, 1:] = self._sheets(state)[:, place].reshape(self.modes)
         return table
+
+    def _sheets(self, state: WaveState) -> FloatArray:
+        """Return every sheet's amplitudes [m], shape (M N, layers)."""
+        if not self._massless:
+            return self.oscillators.read(state.oscillators[0])
+        inputs = self._inputs(state.load)
+        held = np.asarray(np.linalg.solve(self._stiffness, self._forcing * inputs[:, None])[..., 0])
+        for creep, now in zip(self._creep, state.oscillators, strict=True):
+            held = held + creep.read(now - creep.equilibrium(inputs))
+        return held
 
     @property
     def surface_modes(self) -> tuple[int, int]:
@@ -223,7 +267,10 @@ class WaveMembrane:
         return self._mass, self._stiffness
 
     def modal_energy(self, state: WaveState) -> FloatArray:
-        """Return kinetic plus elastic energy of each mode (m, n), all layers together [J], shape (M, N)."""
+        """Return kinetic plus long-term elastic energy of each mode (m, n), all layers together [J], shape (M, N).
+
+        What is stored in branches of a Prony series is not in it.
+        """
         (oscillators,) = state.oscillators
         amplitude, rate = self.oscillators.read(oscillators), self.oscillators.read_rates(oscillators)
         density = np.einsum("ja,jab,jb->j", rate, self._mass, rate)
@@ -254,19 +301,49 @@ class WaveMembrane:
 
 def _matrices(stack: Stack, series: Series) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return mass, damping and stiffness per unit area of each mode, each of shape (M N, layers, layers)."""
-    kx, ky = np.meshgrid(series.kx[1:], series.ky[1:], indexing="ij")
-    kx2, ky2 = kx.ravel() ** 2, ky.ravel() ** 2
+    own = _own_stiffness(stack, series)
     layers = len(stack.sheets)
-    mass = np.zeros((len(kx2), layers, layers))
+    mass = np.zeros((own.shape[1], layers, layers))
     damping, stiffness = mass.copy(), mass.copy()
     for i, sheet in enumerate(stack.sheets):
-        own = sheet.bending * (kx2 + ky2) ** 2 + sheet.tension_x * kx2 + sheet.tension_y * ky2
         mass[:, i, i] = sheet.areal_density
-        stiffness[:, i, i] += own
-        damping[:, i, i] += sheet.damping + sheet.retardation_time * own
+        stiffness[:, i, i] += own[i]
+        damping[:, i, i] += sheet.damping + sheet.retardation_time * own[i]
     for i, coupling in enumerate(stack.couplings):
-        pair = np.zeros((layers + 1, layers + 1))
-        pair[i : i + 2, i : i + 2] = coupling.stiffness * np.array([[1, -1], [-1, 1]])
-        stiffness += pair[:layers, :layers]
-        damping += coupling.retardation_time * pair[:layers, :layers]
+        bed = _bed(i, coupling.stiffness, layers)
+        stiffness += bed
+        damping += coupling.retardation_time * bed
     return mass, damping, stiffness
+
+
+def _memory(stack: Stack, series: Series) -> Memory | None:
+    """Return what sheets and beds remember; None where they do not."""
+    times = stack.relaxation_times
+    if not times:
+        return None
+    own, layers = _own_stiffness(stack, series), len(stack.sheets)
+    branches = np.zeros((len(times), own.shape[1], layers, layers))
+    for d, time in enumerate(times):
+        for i, sheet in enumerate(stack.sheets):
+            branches[d, :, i, i] += weight_of(sheet.prony, time) * own[i]
+        for i, coupling in enumerate(stack.couplings):
+            branches[d] += _bed(i, weight_of(coupling.prony, time) * coupling.stiffness, layers)
+    return Memory(times=np.array(times), stiffness=branches)
+
+
+def _own_stiffness(stack: Stack, series: Series) -> FloatArray:
+    """Return each sheet's resistance per unit area without its beds [N/m3], shape (layers, M N)."""
+    kx, ky = np.meshgrid(series.kx[1:], series.ky[1:], indexing="ij")
+    kx2, ky2 = kx.ravel() ** 2, ky.ravel() ** 2
+    return np.array(
+        [
+            sheet.bending * (kx2 + ky2) ** 2 + sheet.tension_x * kx2 + sheet.tension_y * ky2
+            for sheet in stack.sheets
+        ]
+    )
+
+
+def _bed(below: int, stiffness: float, layers: int) -> FloatArray:
+    pair = np.zeros((layers + 1, layers + 1))
+    pair[below : below + 2, below : below + 2] = stiffness * np.array([[1, -1], [-1, 1]])
+    return pair[:layers, :layers]

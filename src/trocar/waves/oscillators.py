@@ -12,8 +12,10 @@ import numpy as np
 from trocar.model import FloatArray
 from trocar.waves.decouple import decouple
 from trocar.waves.kernel import advance
+from trocar.waves.memory import Memory, creeping, decouple_remembering
 from trocar.waves.propagator import Propagator
 
+_UNHEARD = 1e-13  # of what a group's poles add to an output together: less is left out
 _REMEMBERED_STEPS = 4  # propagators kept: a driver uses one dt, a study a few
 
 
@@ -44,8 +46,9 @@ class Oscillators:
         stiffness: FloatArray,
         forcing: FloatArray,
         reading: FloatArray,
+        memory: Memory | None = None,
     ) -> Oscillators:
-        """Build them from M q'' + C q' + K q = forcing f, y = reading q.
+        """Build them from M q'' + C q' + K q + what is remembered = forcing f, y = reading q.
 
         Args:
             mass: shape (J, r, r).
@@ -53,12 +56,16 @@ class Oscillators:
             stiffness: shape (J, r, r).
             forcing: shape (J, r, n).
             reading: shape (J, k, r).
+            memory: of the layers; None where they have none.
 
         Raises:
             SolverError: the matrices are not those of a stable tissue.
         """
         order = mass.shape[-1]
-        blocks = decouple(mass, damping, stiffness)
+        if memory is None:
+            blocks = decouple(mass, damping, stiffness)
+        else:
+            blocks = decouple_remembering(mass, damping, stiffness, memory)
         accelerations = np.linalg.solve(mass, forcing)
         return cls(
             matrices=blocks.matrices,
@@ -67,6 +74,45 @@ class Oscillators:
             entry=blocks.entry,
             # From the stiffness, not from A: a slow pole beside a very fast one is lost in A's rounding.
             holds=np.einsum("jsia,jan->jsin", blocks.entry[..., :order], np.linalg.solve(stiffness, forcing)),
+        )
+
+    @classmethod
+    def massless(
+        cls, stiffness: FloatArray, forcing: FloatArray, reading: FloatArray, memory: Memory
+    ) -> Oscillators:
+        """Build them without inertia and damping; what they read is right as a difference from equilibrium alone.
+
+        The displacement is that of equilibrium with the load, plus what is read of the state minus `equilibrium`.
+
+        Args:
+            stiffness: long-term, shape (J, r, r).
+            forcing: shape (J, r, n).
+            reading: shape (J, k, r).
+            memory: of the layers.
+
+        Raises:
+            SolverError: the stiffness is not positive definite.
+        """
+        rates, seen, shown = creeping(stiffness, memory)
+        if rates.shape[1] % 2:  # an idle pole makes the last block whole
+            rates = np.concatenate([rates, rates[:, :1]], axis=1)
+            seen = np.concatenate([seen, np.zeros_like(seen[:, :1])], axis=1)
+            shown = np.concatenate([shown, np.zeros_like(shown[..., :1])], axis=2)
+        holds = seen @ np.linalg.solve(stiffness, forcing)
+        outputs = reading @ shown
+        kept, order = _heard(outputs, holds), reading.shape[2]
+        rates = np.take_along_axis(rates, kept, axis=1)
+        groups, half = len(rates), kept.shape[1] // 2
+        matrices = np.zeros((groups, half, 2, 2))
+        for component in (0, 1):
+            matrices[..., component, component] = -rates[:, component::2]
+        holds = np.take_along_axis(holds, kept[..., None], axis=1)
+        return cls(
+            matrices=matrices,
+            inputs=(rates[..., None] * holds).reshape(groups, half, 2, -1),
+            outputs=np.take_along_axis(outputs, kept[:, None, :], axis=2).reshape(groups, -1, half, 2),
+            entry=np.zeros((groups, half, 2, 2 * order)),
+            holds=holds.reshape(groups, half, 2, -1),
         )
 
     def gathered(self, groups: np.ndarray) -> Oscillators:
@@ -114,3 +160,38 @@ class Oscillators:
         rates = np.einsum("jsik,jsk->jsi", self.matrices, state)
         result: FloatArray = np.einsum("jksi,jsi->jk", self.outputs, rates)
         return result
+
+
+def _heard(outputs: FloatArray, holds: FloatArray) -> np.ndarray:
+    """Return the poles that any input reaches and any output hears, the loudest first, an even number; (J, p)."""
+    loudness = np.abs(outputs).max(axis=1, initial=0.0) * np.abs(holds).max(axis=2, initial=0.0)
+    total = loudness.sum(axis=1, keepdims=True)
+    needed = int((loudness > _UNHEARD * total).sum(axis=1).max(initial=0))
+    needed += needed % 2
+    order = np.argsort(-loudness, axis=1, kind="stable")
+    return order[:, :needed]
+
+
+def joined(pieces: list[Oscillators]) -> Oscillators:
+    """Return the groups of all pieces, one after the other; blocks that a piece lacks stay at rest."""
+    blocks = max(piece.matrices.shape[1] for piece in pieces)
+
+    def of(name: str, axis: int) -> FloatArray:
+        return np.concatenate([_widened(getattr(piece, name), axis, blocks) for piece in pieces])
+
+    return Oscillators(
+        matrices=of("matrices", 1),
+        inputs=of("inputs", 1),
+        outputs=of("outputs", 2),
+        entry=of("entry", 1),
+        holds=of("holds", 1),
+    )
+
+
+def _widened(values: FloatArray, axis: int, size: int) -> FloatArray:
+    """Return an array that ends in zeros along an axis, `size` long."""
+    if values.shape[axis] == size:
+        return values
+    shape = list(values.shape)
+    shape[axis] = size - shape[axis]
+    return np.concatenate([values, np.zeros(shape)], axis=axis)

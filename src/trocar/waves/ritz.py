@@ -5,18 +5,27 @@ in load-dependent Ritz vectors: the static response to a traction on the top fac
 does, K^-1 M K^-1 p, and what uneven damping does, K^-1 C K^-1 p (Wilson, Yuan and Dickens 1982, Earthquake Eng
 Struct Dyn 10:813; as moment matching: Bai 2002, Appl Numer Math 43:9). The first vector alone makes every static
 answer that of all modes together, residual included; each further one matches a moment of the response in time.
+
+Layers that remember unlike each other answer a slow load in shapes that lie between the relaxed K^-1 p and the sudden
+(K + G)^-1 p, G the sum of all branches. Both are kept, and the answer K(s)^-1 p at the real s of a few relaxation
+times between them: interpolation at rational points (Grimme 1997; Antoulas 2005, Approximation of Large-Scale Dynamical
+Systems, ch. 11). Inertia is then fed back through the sudden stiffness.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from trocar.model import FloatArray
-from trocar.waves.oscillators import Oscillators
+from trocar.waves.memory import Memory
+from trocar.waves.oscillators import Oscillators, joined
 from trocar.waves.thin_layer import ThinLayers, Wavenumbers
 
 _CHUNK = 256  # wavenumbers at a time: 256 dense matrices of 60 x 60 are 7 MiB
-_EVEN = 1e-12  # relative spread of retardation times that counts as none
+_EVEN = 1e-12  # relative spread of retardation times, or of weights, that counts as none
+_PLACES = 3  # relaxation times whose answer is kept at most
 
 
 def ritz_oscillators(
@@ -33,17 +42,28 @@ def ritz_oscillators(
     Returns:
         Oscillators with c inputs (traction amplitudes on the top face) and c outputs for each node or face read.
     """
+    return _by_chunks(at, lambda part: _reduce(layers, part, order, everywhere))
+
+
+def creeping_oscillators(layers: ThinLayers, at: Wavenumbers) -> Oscillators:
+    """Reduce J wavenumbers to what they remember, without inertia and damping; see `Oscillators.massless`.
+
+    Args:
+        layers: matrices through the thickness, c components a node, of a tissue that remembers.
+        at: J wavenumbers.
+
+    Returns:
+        Oscillators with c inputs (traction amplitudes on the top face) and c outputs for each layer's upper face.
+    """
+    return _by_chunks(at, lambda part: _creeping(layers, part))
+
+
+def _by_chunks(at: Wavenumbers, build: Callable[[Wavenumbers], Oscillators]) -> Oscillators:
     pieces = []
     for start in range(0, len(at.k), _CHUNK):
         part = slice(start, start + _CHUNK)
-        pieces.append(_reduce(layers, Wavenumbers(at.k[part], at.kx2[part], at.ky2[part]), order, everywhere))
-    return Oscillators(
-        matrices=np.concatenate([piece.matrices for piece in pieces]),
-        inputs=np.concatenate([piece.inputs for piece in pieces]),
-        outputs=np.concatenate([piece.outputs for piece in pieces]),
-        entry=np.concatenate([piece.entry for piece in pieces]),
-        holds=np.concatenate([piece.holds for piece in pieces]),
-    )
+        pieces.append(build(Wavenumbers(at.k[part], at.kx2[part], at.ky2[part])))
+    return joined(pieces)
 
 
 def _reduce(layers: ThinLayers, at: Wavenumbers, order: int, everywhere: bool) -> Oscillators:
@@ -51,27 +71,84 @@ def _reduce(layers: ThinLayers, at: Wavenumbers, order: int, everywhere: bool) -
     flexibility = np.linalg.inv(stiffness)
     components = layers.components
     response = flexibility[:, :, -components:]
-    families = [response]
-    for _ in range(order - 1):
-        families.append(flexibility @ (layers.mass @ families[-1]))
     spread = np.ptp(layers.retardation)
-    prestressed = layers.prestress_x.any() or layers.prestress_y.any()
-    if spread > _EVEN * layers.retardation.max() or (prestressed and layers.retardation.any()):
-        families.insert(1, flexibility @ (damping @ response))
-    families = families[: layers.size // components]
-    basis = _orthonormal(np.concatenate(families, axis=2), stiffness)
-
+    uneven = spread > _EVEN * layers.retardation.max() or (layers.prestressed and layers.retardation.any())
+    creeps = _creeps_unevenly(layers)
+    branches = layers.remembered(at)
+    sudden = np.linalg.inv(stiffness + branches.sum(axis=0)) if creeps else flexibility
+    families = [response]
+    if creeps:
+        families += _between(layers, stiffness, branches)
+    inertial = families[-1]
+    for _ in range(order - 1):
+        inertial = sudden @ (layers.mass @ inertial)
+        families.append(inertial)
+    if uneven:
+        families.insert(1, sudden @ (damping @ response))
+    basis = _orthonormal(np.concatenate(families[: layers.size // components], axis=2), stiffness)
     transposed = np.swapaxes(basis, 1, 2)
-    order_kept = basis.shape[2]
-    identity = np.broadcast_to(np.eye(order_kept), (len(basis), order_kept, order_kept))
-    faces = [layers.unknown(layer, c) for layer in range(len(layers.faces)) for c in range(components)]
     return Oscillators.of(
         mass=_symmetric(transposed @ layers.mass @ basis),
         damping=_symmetric(transposed @ damping @ basis),
-        stiffness=identity,
+        stiffness=_identity(basis),
         forcing=transposed[:, :, -components:],
-        reading=basis if everywhere else basis[:, faces],
+        reading=basis if everywhere else basis[:, _face_unknowns(layers)],
+        memory=_memory(layers, branches, basis) if len(branches) else None,
     )
+
+
+def _creeping(layers: ThinLayers, at: Wavenumbers) -> Oscillators:
+    stiffness, components = layers.stiffness(at), layers.components
+    branches = layers.remembered(at)
+    families = [_pushed(stiffness, components)]
+    if _creeps_unevenly(layers):
+        families += _between(layers, stiffness, branches)
+    basis = _orthonormal(np.concatenate(families[: layers.size // components], axis=2), stiffness)
+    return Oscillators.massless(
+        stiffness=_identity(basis),
+        forcing=np.swapaxes(basis, 1, 2)[:, :, -components:],
+        reading=basis[:, _face_unknowns(layers)],
+        memory=_memory(layers, branches, basis),
+    )
+
+
+def _creeps_unevenly(layers: ThinLayers) -> bool:
+    """Whether shapes change while layers relax: they do not where every layer has the same series."""
+    return bool(len(layers.relaxation)) and bool(
+        layers.prestressed or np.ptp(layers.relaxing, axis=1).max() > _EVEN * layers.relaxing.max()
+    )
+
+
+def _between(layers: ThinLayers, stiffness: FloatArray, branches: FloatArray) -> list[FloatArray]:
+    """Return the answers at 1/tau of a few relaxation times, the slowest first, and the sudden one at last."""
+    times = layers.relaxation
+    few = np.unique(np.linspace(0, len(times) - 1, min(len(times), _PLACES)).round().astype(int))
+    weights = [times / (times[i] + times) for i in few[::-1]]  # s tau/(1 + s tau) at s = 1/tau_i
+    return [
+        _pushed(stiffness + np.tensordot(weight, branches, 1), layers.components)
+        for weight in (*weights, np.ones(len(times)))
+    ]
+
+
+def _pushed(stiffness: FloatArray, components: int) -> FloatArray:
+    """Return the answer to unit tractions on the top face, shape (J, nc, c)."""
+    tractions = np.eye(stiffness.shape[1])[:, -components:]
+    every = np.broadcast_to(tractions, (len(stiffness), *tractions.shape))
+    return np.asarray(np.linalg.solve(stiffness, every), dtype=np.float64)
+
+
+def _memory(layers: ThinLayers, branches: FloatArray, basis: FloatArray) -> Memory:
+    reduced = np.swapaxes(basis, 1, 2) @ branches @ basis
+    return Memory(times=layers.relaxation, stiffness=_symmetric(reduced))
+
+
+def _face_unknowns(layers: ThinLayers) -> list[int]:
+    return [layers.unknown(layer, c) for layer in range(len(layers.faces)) for c in range(layers.components)]
+
+
+def _identity(basis: FloatArray) -> FloatArray:
+    order = basis.shape[2]
+    return np.broadcast_to(np.eye(order), (len(basis), order, order))
 
 
 def _orthonormal(vectors: FloatArray, stiffness: FloatArray) -> FloatArray:
@@ -90,5 +167,5 @@ def _orthonormal(vectors: FloatArray, stiffness: FloatArray) -> FloatArray:
 
 
 def _symmetric(matrices: FloatArray) -> FloatArray:
-    result: FloatArray = 0.5 * (matrices + np.swapaxes(matrices, 1, 2))
+    result: FloatArray = 0.5 * (matrices + np.swapaxes(matrices, -1, -2))
     return result

@@ -4,29 +4,31 @@ Across the block the series of `series` diagonalise the problem exactly where th
 is left per wavenumber is a small banded system (see `thin_layer`). Two nested sets of wavenumbers serve it: all of
 them follow the load statically (`banded`), and the lower ones besides carry oscillators (`ritz`), whose static part
 is exact. Where the sides are clamped (`edges`, `edges+base`), tractions on them undo what the series leaves free there
-(`clamped`): exact for a static answer, while in motion the clamps act at once.
+(`clamped`): exact for a static answer, while in motion the clamps act at once. Where layers remember (a Prony series),
+the wavenumbers that carry no oscillators creep (`creep`): they follow the load without inertia, but not at once. With
+`massless` all of them do.
 """
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from math import inf
 
 import numpy as np
 
+from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
 from trocar.tissues.tissue import Tissue
 from trocar.waves.banded import surface_compliance
 from trocar.waves.clamped import SIDE_MODES, ClampedSides
-from trocar.waves.footprint import modal_forces
+from trocar.waves.creep import Creep, creep_of
 from trocar.waves.near_field import layered_compliance
 from trocar.waves.oscillators import Oscillators
-from trocar.waves.ritz import ritz_oscillators
+from trocar.waves.polarised import audible, distinct, polarised, turned_to_axes
+from trocar.waves.ritz import creeping_oscillators, ritz_oscillators
 from trocar.waves.series import Series
 from trocar.waves.state import WaveState, require_step
-from trocar.waves.thin_layer import ThinLayers, Wavenumbers, horizontal_shear, vertical_and_along
-
-_SILENT = 1e-13  # modal force relative to the largest: below it is rounding (a central tool's even modes)
+from trocar.waves.thin_layer import ThinLayers, horizontal_shear, vertical_and_along
 
 
 class WaveSolid:
@@ -41,9 +43,10 @@ class WaveSolid:
         side_modes: highest m and n that resolve clamped sides.
         order: how many Ritz vectors per direction each moving wavenumber has.
         refinement: cuts every thin layer into this many.
+        massless: leaves inertia and Kelvin-Voigt damping out of `step`: what is left is creep.
 
     Raises:
-        InputError: a size or mode count is impossible.
+        InputError: a size or mode count is impossible, or layers remember where sides are clamped.
     """
 
     def __init__(
@@ -57,12 +60,21 @@ class WaveSolid:
         side_modes: tuple[int, int] = SIDE_MODES,
         order: int = 3,
         refinement: int = 1,
+        massless: bool = False,
     ) -> None:
         self.tissue = tissue
         self.size = size
         self.support = Support(support)
+        if tissue.relaxation_times and self.support.sides_clamped:
+            raise InputError(
+                "prony",
+                "no Prony series where sides are clamped, which WaveSolid cannot yet take",
+                self.support.value,
+                'use support "base", or the fitted membrane',
+            )
         self.layer_names = tissue.layer_names
         self._series = Series(size, modes)
+        self._massless = massless
         self._moving = Series(size, (min(modes[0], dynamic_modes[0]), min(modes[1], dynamic_modes[1])))
         self._clamps = Series(size, (min(modes[0], side_modes[0]), min(modes[1], side_modes[1])))
         self._order = order
@@ -71,7 +83,8 @@ class WaveSolid:
         self._compliance_wv = np.full((*shape, 2, 2), np.nan)
         self._compliance_s = np.full((*shape, 1, 1), np.nan)
         self._unit_response = lru_cache(maxsize=8)(self._response_to_unit_press)
-        self._unit_polarised = lru_cache(maxsize=16)(lambda press: _polarised(press, self._moving))
+        self._unit_polarised = lru_cache(maxsize=16)(lambda press: polarised(press, self._moving))
+        self._unit_tractions = lru_cache(maxsize=8)(lambda press: np.stack(polarised(press, self._series)))
 
     @cached_property
     def _layers_wv(self) -> ThinLayers:
@@ -109,7 +122,8 @@ class WaveSolid:
 
     def init(self) -> WaveState:
         """Return the state at rest at time 0."""
-        return WaveState(0.0, (self.oscillators_wv.rest, self.oscillators_s.rest))
+        moving = () if self._massless else (self.oscillators_wv.rest, self.oscillators_s.rest)
+        return WaveState(0.0, moving + (self._creep.rest if self._creep is not None else ()))
 
     def static(self, load: Load) -> WaveState:
         """Return the equilibrium under a constant load."""
@@ -123,13 +137,32 @@ class WaveSolid:
         """
         require_step(load0, load1, dt)
         if not state.oscillators:
-            held = self.moving_forces(state.load)
-            families = zip((self.oscillators_wv, self.oscillators_s), held, strict=True)
-            state = WaveState(state.time, tuple(family.equilibrium(f) for family, f in families), state.load)
-        start, end = self.moving_forces(load0), self.moving_forces(load1)
-        wv = self.oscillators_wv.step(state.oscillators[0], start[0], end[0], dt)
-        s = self.oscillators_s.step(state.oscillators[1], start[1], end[1], dt)
-        return WaveState(state.time + dt, (wv, s), load1)
+            state = WaveState(state.time, self._held(state.load), state.load)
+        advanced = tuple(
+            family.step(now, f0, f1, dt)
+            for family, now, f0, f1 in zip(
+                self._families,
+                state.oscillators,
+                self.moving_forces(load0),
+                self.moving_forces(load1),
+                strict=False,
+            )
+        )
+        if self._creep is not None:
+            creep = state.oscillators[len(self._families) :]
+            advanced += self._creep.step(creep, self._tractions(load0), self._tractions(load1), dt)
+        return WaveState(state.time + dt, advanced, load1)
+
+    @property
+    def _families(self) -> tuple[Oscillators, ...]:
+        return () if self._massless else (self.oscillators_wv, self.oscillators_s)
+
+    def _held(self, load: Load) -> tuple[FloatArray, ...]:
+        """Return what moves, in equilibrium with a load."""
+        moving = tuple(
+            family.equilibrium(f) for family, f in zip(self._families, self.moving_forces(load), strict=False)
+        )
+        return moving + (self._creep.equilibrium(self._tractions(load)) if self._creep is not None else ())
 
     def displacement(self, state: WaveState, points: FloatArray, layer: str | None = None) -> FloatArray:
         """Return the displacement [m] of a layer's upper face at points [m]; both of shape (n, 3).
@@ -197,21 +230,26 @@ class WaveSolid:
         if state.oscillators:
             for waves in self._off_balance(state):
                 table[:, : waves.shape[2], : waves.shape[3]] += waves[face]
+            if self._creep is not None:
+                creep = state.oscillators[len(self._families) :]
+                lack = self._creep.lack(creep, self._tractions(state.load), len(self.layer_names))
+                w, v, s = (part[..., face : face + 1] for part in lack)
+                table += turned_to_axes(w, v, s, self._series)[0]
         return table
 
     # What follows at once -------------------------------------------------------------------------------------
 
     def _response_to_unit_press(self, press: Press) -> FloatArray:
         """Return every face's static series under one press, shape (layers, 3, M + 1, N + 1)."""
-        across, along, side = _polarised(press, self._series)
+        across, along, side = polarised(press, self._series)
         drags = press.tilt > 0
-        self._fill(self._compliance_wv, self._layers_wv, _audible(across) | _audible(along))
+        self._fill(self._compliance_wv, self._layers_wv, audible(across) | audible(along))
         compliance = np.nan_to_num(self._compliance_wv)
         w = compliance[..., 0, 0] * across[..., None]
         v = compliance[..., 1, 0] * across[..., None]
         s = np.zeros_like(w)
         if drags:
-            self._fill(self._compliance_s, self._layers_s, _audible(side))
+            self._fill(self._compliance_s, self._layers_s, audible(side))
             w = w + compliance[..., 0, 1] * along[..., None]
             v = v + compliance[..., 1, 1] * along[..., None]
             s = np.nan_to_num(self._compliance_s[..., 0, 0]) * side[..., None]
@@ -219,13 +257,13 @@ class WaveSolid:
             added = self._sides.under_load(across, along, side)
             for waves, more in zip((w, v, s), added, strict=True):
                 waves[: more.shape[0], : more.shape[1]] += more
-        return _turned_to_axes(w, v, s, self._series)
+        return turned_to_axes(w, v, s, self._series)
 
     def _fill(self, table: FloatArray, layers: ThinLayers, wanted: np.ndarray) -> None:
         missing = wanted & np.isnan(table[:, :, 0, 0, 0])
         if missing.any():
-            distinct, places = _distinct(self._series, missing, self.tissue)
-            table[missing] = surface_compliance(layers, distinct)[places]
+            at, places = distinct(self._series, missing, self.tissue)
+            table[missing] = surface_compliance(layers, at)[places]
 
     # What moves -----------------------------------------------------------------------------------------------
 
@@ -262,8 +300,8 @@ class WaveSolid:
         return self._oscillators(self._layers_s, wanted)
 
     def _oscillators(self, layers: ThinLayers, wanted: np.ndarray) -> Oscillators:
-        distinct, places = _distinct(self._moving, wanted, self.tissue)
-        found = ritz_oscillators(layers, distinct, self._order, everywhere=self._sides is not None)
+        at, places = distinct(self._moving, wanted, self.tissue)
+        found = ritz_oscillators(layers, at, self._order, everywhere=self._sides is not None)
         return found.gathered(places)
 
     def moving_forces(self, load: Load) -> tuple[FloatArray, FloatArray]:
@@ -285,13 +323,38 @@ class WaveSolid:
         shapes: FloatArray = (along_x[:, :, None] * along_y[:, None, :]).reshape(len(points), -1)
         return shapes
 
+    @cached_property
+    def _creep(self) -> Creep | None:
+        """What follows the load without inertia, where layers remember."""
+        if not self.tissue.relaxation_times:
+            return None
+        wanted = np.ones(self._series.shape, dtype=bool)
+        wanted[0, 0] = False
+        if not self._massless:
+            wanted[: self._moving.kx.size, : self._moving.ky.size] = False
+
+        def made(layers: ThinLayers, which: np.ndarray) -> Oscillators:
+            at, places = distinct(self._series, which, self.tissue)
+            return creeping_oscillators(layers, at).gathered(places)
+
+        return creep_of(wanted, partial(made, self._layers_wv), partial(made, self._layers_s))
+
+    def _tractions(self, load: Load) -> FloatArray:
+        """Return the traction's amplitudes across the face, along each wave and beside it [Pa], (3, M + 1, N + 1)."""
+        total = np.zeros((3, *self._series.shape))
+        for press in load:
+            total += press.force * self._unit_tractions(press.with_force(1.0))
+        return total
+
     def _off_balance(self, state: WaveState) -> list[FloatArray]:
-        """Return what a state has beyond the equilibrium with its load, as parts to add up; see `_turned_to_axes`."""
-        families = (self.oscillators_wv, self.oscillators_s)
+        """Return what moving waves have beyond the equilibrium with the load, as parts; see `turned_to_axes`."""
+        families = self._families
+        if not families:
+            return []
         across, aside = (
             family.read(now - family.equilibrium(held))
             for family, now, held in zip(
-                families, state.oscillators, self.moving_forces(state.load), strict=True
+                families, state.oscillators, self.moving_forces(state.load), strict=False
             )
         )
         rows, columns = self._moving.kx.size, self._moving.ky.size
@@ -301,55 +364,9 @@ class WaveSolid:
         s = np.zeros((rows, columns, aside.shape[1]))
         s.reshape(rows * columns, -1)[1:] = aside
         if self._sides is None:
-            return [_turned_to_axes(w, v, s, self._moving)]
+            return [turned_to_axes(w, v, s, self._moving)]
         faces, added = list(self._layers_s.faces), self._sides.under_slide(v, s)
         return [
-            _turned_to_axes(w[..., faces], v[..., faces], s[..., faces], self._moving),
-            _turned_to_axes(added[0], added[1], added[2], self._clamps),
+            turned_to_axes(w[..., faces], v[..., faces], s[..., faces], self._moving),
+            turned_to_axes(added[0], added[1], added[2], self._clamps),
         ]
-
-
-def _turned_to_axes(w: FloatArray, v: FloatArray, s: FloatArray, series: Series) -> FloatArray:
-    """Turn W, V and S, shape (M + 1, N + 1, faces), into u_x, u_y, u_z, shape (faces, 3, M + 1, N + 1)."""
-    kx, ky = _directions(series)
-    return np.ascontiguousarray(np.moveaxis(np.stack([kx * v - ky * s, ky * v + kx * s, w]), 3, 0))
-
-
-def _directions(series: Series) -> tuple[FloatArray, FloatArray]:
-    """Return kx/k and ky/k, each of shape (M + 1, N + 1, 1)."""
-    kx, ky = series.kx[:, None, None], series.ky[None, :, None]
-    k = np.hypot(kx, ky)
-    k[0, 0] = 1.0
-    return kx / k, ky / k
-
-
-def _polarised(press: Press, series: Series) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the traction's amplitudes [Pa] across the face, along each wave vector and beside it."""
-    forces = modal_forces(press, series)
-    a, b = series.size
-    norm = np.full(forces.shape[1:], 4 / (a * b))
-    norm[0, :] *= 0.5
-    norm[:, 0] *= 0.5
-    fx, fy, fz = forces * norm
-    kx, ky = _directions(series)
-    along = kx[..., 0] * fx + ky[..., 0] * fy
-    along[0, :] = along[:, 0] = 0.0  # without a sine of its own such a wave has no in-plane part along it
-    side = kx[..., 0] * fy - ky[..., 0] * fx
-    return fz, along, side
-
-
-def _audible(amplitudes: FloatArray) -> np.ndarray:
-    size = np.abs(amplitudes)
-    result: np.ndarray = size > _SILENT * max(size.max(), 1e-300)
-    return result
-
-
-def _distinct(series: Series, wanted: np.ndarray, tissue: Tissue) -> tuple[Wavenumbers, np.ndarray]:
-    """Return the distinct wavenumbers among those wanted, and the place of each wanted one among them."""
-    m, n = np.nonzero(wanted)
-    kx2, ky2 = series.kx[m] ** 2, series.ky[n] ** 2
-    k2 = kx2 + ky2
-    directed = any(layer.prestress_x != layer.prestress_y for layer in tissue.layers)
-    key = np.round(np.stack([k2, kx2 if directed else k2]) * (series.size[0] / np.pi) ** 2, 6)
-    _, first, places = np.unique(key, axis=1, return_index=True, return_inverse=True)
-    return Wavenumbers(np.sqrt(k2[first]), kx2[first], ky2[first]), places.ravel()

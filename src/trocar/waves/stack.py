@@ -5,8 +5,9 @@ Sheet i obeys
     m_i u_i'' + c_i u_i' + tau_i S_i u_i' + S_i u_i + sum over neighbours k (1 + tau d/dt) (u_i - u_j) = p_i,
     S_i = D_i del^4 - Tx_i d^2/dx^2 - Ty_i d^2/dy^2,
 
-with a foundation as the lowest neighbour, standing still. It is the paper's equation 1 per layer, with what it left
-out: a tension of its own along x and y, bending, damping, and the coupling that makes the layers one tissue.
+with a foundation as the lowest neighbour, standing still. S_i and k relax where they have a Prony series. It is the
+paper's equation 1 per layer, with what it left out: a tension of its own along x and y, bending, damping, memory, and
+the coupling that makes the layers one tissue.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ import numpy as np
 
 from trocar.errors import InputError
 from trocar.model import FloatArray, Support
-from trocar.tissues.layer import Layer
+from trocar.tissues.layer import Layer, Prony
 from trocar.tissues.tissue import Tissue
 
 
@@ -33,9 +34,10 @@ class Sheet:
         areal_density: [kg/m2].
         damping: viscous, against the room [N s/m3].
         retardation_time: Kelvin-Voigt time of tension and bending [s].
+        prony: terms (g, tau) by which both relax: weight relative to the long-term value [1], time [s].
 
     Raises:
-        InputError: a value is not finite, negative, or the areal density is 0.
+        InputError: a value is not finite, negative, or the areal density or a relaxation time is 0.
     """
 
     name: str
@@ -45,11 +47,13 @@ class Sheet:
     bending: float = 0.0
     damping: float = 0.0
     retardation_time: float = 0.0
+    prony: Prony = ()
 
     def __post_init__(self) -> None:
         for key in ("tension_x", "tension_y", "bending", "damping", "retardation_time"):
             _require(f"sheet {self.name!r}: {key}", getattr(self, key), at_least_zero=True)
         _require(f"sheet {self.name!r}: areal_density", self.areal_density)
+        _require_prony(f"sheet {self.name!r}", self.prony)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,17 +63,20 @@ class Coupling:
     Args:
         stiffness: [N/m3].
         retardation_time: Kelvin-Voigt time [s].
+        prony: terms (g, tau) by which it relaxes, as a sheet's.
 
     Raises:
-        InputError: a value is not finite or negative.
+        InputError: a value is not finite or negative, or a relaxation time is 0.
     """
 
     stiffness: float
     retardation_time: float = 0.0
+    prony: Prony = ()
 
     def __post_init__(self) -> None:
         for key in ("stiffness", "retardation_time"):
             _require(f"coupling: {key}", getattr(self, key), at_least_zero=True)
+        _require_prony("coupling", self.prony)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,6 +104,12 @@ class Stack:
                 f"{len(self.sheets)}, one below each sheet (the last is the foundation)",
                 len(self.couplings),
             )
+
+    @property
+    def relaxation_times(self) -> tuple[float, ...]:
+        """The different times of all series, ascending [s]; empty where nothing remembers."""
+        series = [sheet.prony for sheet in self.sheets] + [bed.prony for bed in self.couplings]
+        return tuple(sorted({time for prony in series for weight, time in prony if weight > 0}))
 
     def compliance(self, k: FloatArray) -> FloatArray:
         """Return every sheet's static amplitude per unit amplitude of pressure on the top one [m/Pa].
@@ -169,12 +182,14 @@ def derived_stack(tissue: Tissue, support: Support) -> Stack:
                 bending=layer.young_modulus * layer.thickness**3 / (12 * (1 - layer.poisson_ratio**2)),
                 areal_density=layer.density * layer.thickness,
                 retardation_time=layer.retardation_time,
+                prony=layer.prony,
             )
         )
     couplings = [
         Coupling(
             stiffness=(layer.lame_lambda + 2 * layer.shear_modulus) / layer.thickness,
             retardation_time=layer.retardation_time,
+            prony=layer.prony,
         )
         for layer in layers
     ]
@@ -185,6 +200,17 @@ def derived_stack(tissue: Tissue, support: Support) -> Stack:
 
 def _shear_tension(layer: Layer) -> float:
     return 0.5 * layer.shear_modulus * layer.thickness
+
+
+def weight_of(prony: Prony, time: float) -> float:
+    """Return the weight g of a relaxation time [s] in a series; 0 where it is not there."""
+    return sum(weight for weight, own in prony if own == time)
+
+
+def _require_prony(where: str, prony: Prony) -> None:
+    for weight, time in prony:
+        _require(f"{where}: g of prony", weight, at_least_zero=True)
+        _require(f"{where}: tau of prony", time)
 
 
 def _require(where: str, value: float, *, at_least_zero: bool = False) -> None:

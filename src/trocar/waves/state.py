@@ -15,7 +15,7 @@ class WaveState:
     Attributes:
         time: [s].
         oscillators: one array per family of modes, each of shape (J, r, 2); empty for a state that stands in
-            equilibrium with its load and was not stepped yet.
+            equilibrium with its load, now and for ever before, and was not stepped yet.
         load: what acts at this instant; the part of the tissue that follows without inertia is read from it.
     """
 

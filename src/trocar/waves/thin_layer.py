@@ -59,6 +59,8 @@ class ThinLayers:
         prestress_x, prestress_y: coefficients of kx^2 and ky^2, shape (nc, nc).
         mass: shape (nc, nc).
         retardation: Kelvin-Voigt time of each layer [s], shape (layers,).
+        relaxation: relaxation times of all layers, ascending [s], shape (D,).
+        relaxing: weight g of each time in each layer [1], shape (D, layers).
         faces: node of each layer's upper face, top layer first.
         components: c: 2 for W and V, 1 for S.
     """
@@ -70,6 +72,8 @@ class ThinLayers:
     prestress_y: FloatArray
     mass: FloatArray
     retardation: FloatArray
+    relaxation: FloatArray
+    relaxing: FloatArray
     faces: tuple[int, ...]
     components: int
 
@@ -81,12 +85,25 @@ class ThinLayers:
 
     def damping(self, at: Wavenumbers) -> FloatArray:
         """Return C = sum over layers of retardation time times elastic stiffness, shape (J, nc, nc)."""
+        return self._elastic(self.retardation, at)
+
+    def remembered(self, at: Wavenumbers) -> FloatArray:
+        """Return G = sum over layers of g times elastic stiffness for each relaxation time, shape (D, J, nc, nc)."""
+        parts = [self._elastic(weights, at) for weights in self.relaxing]
+        return np.array(parts) if parts else np.zeros((0, len(at.k), self.size, self.size))
+
+    def _elastic(self, weights: FloatArray, at: Wavenumbers) -> FloatArray:
         k = at.k[:, None, None]
         constant, linear, quadratic = (
-            np.tensordot(self.retardation, part, 1) for part in (self.constant, self.linear, self.quadratic)
+            np.tensordot(weights, part, 1) for part in (self.constant, self.linear, self.quadratic)
         )
         result: FloatArray = constant + k * linear + k**2 * quadratic
         return result
+
+    @property
+    def prestressed(self) -> bool:
+        """Whether any layer is."""
+        return bool(self.prestress_x.any() or self.prestress_y.any())
 
     @property
     def size(self) -> int:
@@ -171,6 +188,8 @@ def _assemble(
         prestress_y=prestress_y[free, free],
         mass=mass[free, free],
         retardation=np.array([layer.retardation_time for layer in layers]),
+        relaxation=np.array(tissue.relaxation_times),
+        relaxing=np.array([[layer.relaxing(time) for layer in layers] for time in tissue.relaxation_times]),
         faces=tuple(int(top) for top in tops),
         components=components,
     )

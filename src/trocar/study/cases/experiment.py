@@ -29,7 +29,8 @@ class Sampling:
 
     Args:
         period: between samples [s].
-        dynamic: whether inertia and damping count; else the load is followed through equilibria.
+        dynamic: whether inertia and Kelvin-Voigt damping count; else the load is followed through equilibria, which a
+            Prony series delays.
 
     Raises:
         InputError: the period is outside its range.
@@ -129,7 +130,9 @@ class Case:
                 q.PRESTRESS.check(f"layer[{i}].prestress", prestress)
 
         soft = min(range(len(layers)), key=lambda i: layers[i].young_modulus)
-        stiffest = max(max(layer.young_modulus, layer.prestress_x, layer.prestress_y) for layer in layers)
+        stiffest = max(
+            max(layer.instantaneous_modulus, layer.prestress_x, layer.prestress_y) for layer in layers
+        )
         stiffness_ratio = stiffest / layers[soft].young_modulus
         if stiffness_ratio > q.MOST_STIFFNESS_RATIO:
             raise InputError(
@@ -205,6 +208,10 @@ class Case:
                 )
 
     def _check_sampling(self) -> None:
+        if self.rigid and self.tissue.relaxation_times:
+            raise InputError(
+                "tool[0].contact", '"dead" where a layer has a Prony series', "rigid", "leave prony out"
+            )
         if self.sampling.dynamic and self.rigid:
             raise InputError("sampling.dynamic", "false with a rigid tip", True, 'or take contact = "dead"')
         wanted = self.duration / self.sampling.period

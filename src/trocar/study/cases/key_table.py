@@ -95,6 +95,21 @@ class Table:
         first, second = (self._convert(f"{key}[{i}]", quantity, item) for i, item in enumerate(value))
         return first, second
 
+    def pairs(self, first: Quantity, second: Quantity, most: int) -> tuple[tuple[float, float], ...]:
+        """Return a list of pairs [SI], of as many as `most`; none where the key is left out."""
+        key = first.key
+        expected = f"a list of at most {most} pairs [{first.expected}, {second.expected}]"
+        value = self.content.get(key, [])
+        if not isinstance(value, list) or len(value) > most:
+            raise self.refuse(key, expected, value)
+        found = []
+        for i, pair in enumerate(value):
+            if not isinstance(pair, list) or len(pair) != 2:
+                raise self.refuse(f"{key}[{i}]", f"a pair [{first.expected}, {second.expected}]", pair)
+            one, other = self._convert(f"{key}[{i}][0]", first, pair[0]), pair[1]
+            found.append((one, self._convert(f"{key}[{i}][1]", second, other)))
+        return tuple(found)
+
     def text(self, key: str, default: str | None = None) -> str:
         """Return a short printable string."""
         expected = f"printable text of 1 to {MOST_CHARACTERS} characters on one line"

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 from trocar.errors import InputError
+from trocar.tissues.layer import GIVE_LONG_TERM, LARGEST_WEIGHT, LONGEST_TIME, SHORTEST_TIME
 from trocar.units import DEGREE, KILOPASCAL, MILLIMETRE
 
 
@@ -93,6 +94,13 @@ LOSS_FACTOR = Quantity(
 LOSS_FREQUENCY = Quantity(
     name="loss_frequency", key="loss_frequency_hz", unit="Hz", factor=1.0, low=1e-3, high=1e6, default=50.0
 )
+PRONY_WEIGHT = Quantity(
+    name="prony", key="prony", unit="", factor=1.0, low=0, high=LARGEST_WEIGHT, advice=GIVE_LONG_TERM
+)
+PRONY_TIME = Quantity(
+    name="prony", key="prony", unit="s", factor=1.0, low=SHORTEST_TIME, high=LONGEST_TIME,
+    advice="leave out what relaxes faster or slower than anything seen",
+)  # fmt: skip
 LAYER = (THICKNESS, YOUNG_MODULUS, POISSON_RATIO, DENSITY, LOSS_FACTOR, LOSS_FREQUENCY)
 
 DIAMETER = Quantity(name="diameter", key="diameter_mm", unit="mm", factor=MILLIMETRE, low=0.01, high=1000)

@@ -2,7 +2,8 @@
 
 Lengths come in millimetres, stresses in kilopascals, angles in degrees and leave in SI: this is the one
 border. Left out, these keys take a neutral value: tilt_deg, azimuth_deg, hold_s, prestress_kpa and both loss
-keys are 0, tip is "flat", contact is "dead", law is "linear", dynamic is false. All others must be there.
+keys are 0, prony is empty, tip is "flat", contact is "dead", law is "linear", dynamic is false. All others must be
+there.
 """
 
 from __future__ import annotations
@@ -19,18 +20,18 @@ from trocar.study.cases.experiment import Case, Sampling, case_from_tissue
 from trocar.study.cases.key_table import NOTHING, Table, Words, printable
 from trocar.study.cases.tool import Contact, Tip, Tool
 from trocar.tissues import Layer, Tissue
+from trocar.tissues.layer import MOST_TERMS
 
 __all__ = ["Case", "Sampling", "Tool", "case_from_tissue", "load_case"]
 
 MOST_BYTES = 1_000_000  # a case is about a kilobyte
 
 _BLOCK_KEYS = (q.SIDE.key, "support")
-_LAYER_KEYS = ("name", *(item.key for item in q.LAYER), q.PRESTRESS.key, "law")
+_LAYER_KEYS = ("name", *(item.key for item in q.LAYER), q.PRESTRESS.key, q.PRONY_TIME.key, "law")
 _TOOL_KEYS = ("tip", "contact", q.POSITION.key, *(item.key for item in q.TOOL))
 _SAMPLING_KEYS = (q.PERIOD.key, "dynamic")
 _FILE_KEYS = {item.name: item.key for item in (q.SIDE, *q.LAYER, q.PRESTRESS, *q.TOOL, q.POSITION, q.PERIOD)}
 
-_UNBUILT_LAYER_KEYS = {"prony": "use loss_factor with loss_frequency_hz"}
 _UNBUILT_LAWS = dict.fromkeys(("neo-hookean", "ogden", "fibre"), 'use "linear" and a small force')
 
 
@@ -55,7 +56,11 @@ def load_case(path: str | os.PathLike[str]) -> Case:
     block.only(_BLOCK_KEYS)
     size = block.pair(q.SIDE)
     support = Support(block.choice("support", tuple(kind.value for kind in Support)))
-    tissue = Tissue(layers=_layers(root), name=title)
+    layers = _layers(root)
+    try:
+        tissue = Tissue(layers=layers, name=title)
+    except InputError as error:
+        raise InputError(f"{file}: layer: prony", error.expected, error.got, error.advice) from None
     tools = tuple(_tool(table) for table in root.tables("tool", q.MOST_TOOLS))
     sampling = _sampling(root.table("sampling"))
     try:
@@ -117,7 +122,7 @@ def _layers(root: Table) -> tuple[Layer, ...]:
 
 
 def _layer(table: Table) -> Layer:
-    table.only(_LAYER_KEYS, _UNBUILT_LAYER_KEYS)
+    table.only(_LAYER_KEYS)
     name = table.text("name")
     table.choice("law", ("linear",), default="linear", unbuilt=_UNBUILT_LAWS)
     loss, frequency = q.LOSS_FACTOR.key, q.LOSS_FREQUENCY.key
@@ -126,7 +131,13 @@ def _layer(table: Table) -> Layer:
             raise table.refuse(absent, f"a number beside {present}", NOTHING, "give both or neither")
     numbers = {item.name: table.number(item) for item in q.LAYER}
     prestress_x, prestress_y = table.pair(q.PRESTRESS)
-    return Layer(name=name, prestress_x=prestress_x, prestress_y=prestress_y, **numbers)
+    prony = table.pairs(q.PRONY_WEIGHT, q.PRONY_TIME, MOST_TERMS)
+    times = [time for _, time in prony]
+    if len(set(times)) < len(times):
+        raise table.refuse(
+            q.PRONY_TIME.key, "every tau once", table.content["prony"], "add the weights of equal times"
+        )
+    return Layer(name=name, prestress_x=prestress_x, prestress_y=prestress_y, prony=prony, **numbers)
 
 
 def _tool(table: Table) -> Tool:

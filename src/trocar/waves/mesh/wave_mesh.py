@@ -71,11 +71,19 @@ class WaveMesh:
         modes: how many are in the basis. The step costs their square.
 
     Raises:
-        InputError: fewer modes than one, or more than the mesh has.
+        InputError: fewer modes than one, or more than the mesh has; a material states a Prony series.
         SolverError: the mesh is not held, or its modes could not be found.
     """
 
     def __init__(self, mesh: SolidMesh, *, modes: int = 60) -> None:
+        for material in mesh.materials:
+            if material.prony:
+                raise InputError(
+                    f"layer {material.name!r}: prony",
+                    "no series in a mesh: WaveMesh does not remember yet",
+                    material.prony,
+                    "take wave-solid, wave-membrane or fea for a block",
+                )
         self.mesh = mesh
         self.elements = Elements(mesh)
         self._free = np.flatnonzero(~self.elements.held.ravel())
