@@ -65,6 +65,10 @@ class Factorisation:
                 "a layer may be too soft or too thin beside the others, or Poisson's ratio too near 0.5"
             ) from error
 
+    def approximate(self, right: FloatArray) -> FloatArray:
+        """Solve without a look at the residual: to precondition another matrix."""
+        return self._solve(right)
+
     def solve(self, right: FloatArray) -> FloatArray:
         """Solve for a right-hand side, shape (n,).
 

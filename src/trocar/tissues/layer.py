@@ -1,4 +1,4 @@
-"""One layer of tissue: an isotropic, linear elastic slab with Kelvin-Voigt damping and in-plane prestress."""
+"""One layer of tissue: an elastic slab with a law, Kelvin-Voigt damping and in-plane prestress."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import inf, isfinite, pi
 
 from trocar.errors import InputError
+from trocar.tissues.law import LINEAR, Law
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,6 +24,7 @@ class Layer:
         loss_factor: tangent of the loss angle at `loss_frequency` [1]; 0 means undamped.
         loss_frequency: the frequency the loss factor was measured at [Hz].
         tensile_strength: stress at which the layer tears [Pa]; infinite where unknown.
+        law: how stress follows from stretch; the wave models take every law as linear.
 
     Raises:
         InputError: a value is not finite or not possible.
@@ -38,6 +40,7 @@ class Layer:
     loss_factor: float = 0.0
     loss_frequency: float = 50.0
     tensile_strength: float = inf
+    law: Law = LINEAR
 
     def __post_init__(self) -> None:
         if not self.name:
@@ -73,6 +76,11 @@ class Layer:
         """Lame's first parameter lambda = E nu / ((1 + nu)(1 - 2 nu)) [Pa]."""
         nu = self.poisson_ratio
         return self.young_modulus * nu / ((1 + nu) * (1 - 2 * nu))
+
+    @property
+    def bulk_modulus(self) -> float:
+        """K = E / (3 (1 - 2 nu)) [Pa]."""
+        return self.young_modulus / (3 * (1 - 2 * self.poisson_ratio))
 
     @property
     def retardation_time(self) -> float:
