@@ -25,7 +25,11 @@ from trocar.reference.newton import TOLERANCE, Directions, NewtonError, balance
 from trocar.reference.part import Part
 from trocar.reference.solver import Factorisation
 
-_GAUSS = ((0.5 - 0.5 * sqrt(0.6), 5 / 18), (0.5, 8 / 18), (0.5 + 0.5 * sqrt(0.6), 5 / 18))  # places and weights
+_GAUSS = (
+    (0.5 - 0.5 * sqrt(0.6), 5 / 18),
+    (0.5, 8 / 18),
+    (0.5 + 0.5 * sqrt(0.6), 5 / 18),
+)  # places and weights
 _MOST_HALVINGS = 8
 
 

@@ -27,7 +27,9 @@ MOST_ITERATIONS = 25
 _MOST_SHORTENINGS = 12  # 2^-12 of Newton's step moves nothing that counts
 _SLACK = 0.9  # of the slope that may be left; Crisfield's 0.8 to 0.9
 _MOST_GRADIENTS = 30  # of conjugate gradients: more cost as much as a factorisation of small meshes
-_ROUNDING = 1e-7  # of the load: below it, what an iteration does not halve is rounding; linear residuals have it too
+_ROUNDING = (
+    1e-7  # of the load: below it, what an iteration does not halve is rounding; linear residuals have it too
+)
 _INNER = 1e-7  # of the imbalance that they leave; Newton's next iteration sees to it
 
 

@@ -80,7 +80,7 @@ class Table:
         key = quantity.key
         if key not in self.content and quantity.default is not None:
             return quantity.default * quantity.factor
-        return self._convert(key, quantity, self.value(key, quantity.expected))
+        return self.convert(key, quantity, self.value(key, quantity.expected))
 
     def pair(self, quantity: Quantity) -> tuple[float, float]:
         """Return two numbers [SI]."""
@@ -92,7 +92,7 @@ class Table:
         value = self.value(key, expected)
         if not isinstance(value, list) or len(value) != 2:
             raise self.refuse(key, expected, value)
-        first, second = (self._convert(f"{key}[{i}]", quantity, item) for i, item in enumerate(value))
+        first, second = (self.convert(f"{key}[{i}]", quantity, item) for i, item in enumerate(value))
         return first, second
 
     def text(self, key: str, default: str | None = None) -> str:
@@ -143,7 +143,7 @@ class Table:
         value = self.value(key, expected)
         if not isinstance(value, dict):
             raise self.refuse(key, expected, value)
-        return Table(self.file, key, value)
+        return Table(self.file, f"{self.path}.{key}" if self.path else key, value)
 
     def tables(self, key: str, most: int) -> tuple[Table, ...]:
         """Return the array of tables [[key]], 1 to `most` of them."""
@@ -155,7 +155,7 @@ class Table:
             raise self.refuse(key, expected, len(value))
         return tuple(Table(self.file, f"{key}[{i}]", item) for i, item in enumerate(value))
 
-    def _convert(self, key: str, quantity: Quantity, value: object) -> float:
+    def convert(self, key: str, quantity: Quantity, value: object) -> float:
         """Return `value` of the file's unit in SI, refusing what is not a possible number."""
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise self.refuse(key, quantity.expected, value)

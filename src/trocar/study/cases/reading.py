@@ -17,6 +17,7 @@ from trocar.model import Support
 from trocar.study.cases import quantity as q
 from trocar.study.cases.experiment import Case, Sampling, case_from_tissue
 from trocar.study.cases.key_table import NOTHING, Table, Words, printable
+from trocar.study.cases.law import LAW_KEYS, read_law, refuse_mixture
 from trocar.study.cases.tool import Contact, Tip, Tool
 from trocar.tissues import Layer, Tissue
 
@@ -25,13 +26,12 @@ __all__ = ["Case", "Sampling", "Tool", "case_from_tissue", "load_case"]
 MOST_BYTES = 1_000_000  # a case is about a kilobyte
 
 _BLOCK_KEYS = (q.SIDE.key, "support")
-_LAYER_KEYS = ("name", *(item.key for item in q.LAYER), q.PRESTRESS.key, "law")
+_LAYER_KEYS = ("name", *(item.key for item in q.LAYER), q.PRESTRESS.key, *LAW_KEYS)
 _TOOL_KEYS = ("tip", "contact", q.POSITION.key, *(item.key for item in q.TOOL))
 _SAMPLING_KEYS = (q.PERIOD.key, "dynamic")
 _FILE_KEYS = {item.name: item.key for item in (q.SIDE, *q.LAYER, q.PRESTRESS, *q.TOOL, q.POSITION, q.PERIOD)}
 
 _UNBUILT_LAYER_KEYS = {"prony": "use loss_factor with loss_frequency_hz"}
-_UNBUILT_LAWS = dict.fromkeys(("neo-hookean", "ogden", "fibre"), 'use "linear" and a small force')
 
 
 def load_case(path: str | os.PathLike[str]) -> Case:
@@ -108,25 +108,27 @@ def _parse(file: str, content: bytes) -> dict[str, object]:
 
 def _layers(root: Table) -> tuple[Layer, ...]:
     layers: list[Layer] = []
-    for table in root.tables("layer", q.MOST_LAYERS):
+    tables = root.tables("layer", q.MOST_LAYERS)
+    for table in tables:
         layer = _layer(table)
         if layer.name in (other.name for other in layers):
             raise table.refuse("name", "every layer's name once", layer.name)
         layers.append(layer)
+    refuse_mixture(tables, layers)
     return tuple(layers)
 
 
 def _layer(table: Table) -> Layer:
     table.only(_LAYER_KEYS, _UNBUILT_LAYER_KEYS)
     name = table.text("name")
-    table.choice("law", ("linear",), default="linear", unbuilt=_UNBUILT_LAWS)
+    law = read_law(table)
     loss, frequency = q.LOSS_FACTOR.key, q.LOSS_FREQUENCY.key
     for present, absent in ((loss, frequency), (frequency, loss)):
         if present in table.content and absent not in table.content:
             raise table.refuse(absent, f"a number beside {present}", NOTHING, "give both or neither")
     numbers = {item.name: table.number(item) for item in q.LAYER}
     prestress_x, prestress_y = table.pair(q.PRESTRESS)
-    return Layer(name=name, prestress_x=prestress_x, prestress_y=prestress_y, **numbers)
+    return Layer(name=name, prestress_x=prestress_x, prestress_y=prestress_y, law=law, **numbers)
 
 
 def _tool(table: Table) -> Tool:
