@@ -60,7 +60,8 @@ class TestFEASolid(TissueModelContract):
 
 
 class TestLargeFEASolid(TissueModelContract):
-    settled = 1e-2  # as of the linear one
+    # As of the linear one, and more of what rings lies in the few unknowns of this mesh.
+    settled = 3e-2
 
     @pytest.fixture(scope="class")
     @classmethod
