@@ -1,4 +1,4 @@
-"""FEASolid under large deformation: patches, Newton's order, refinement, balance, where it stops."""
+"""FEASolid under large deformation: the assembled equations, Newton's order, refinement, balance, where it stops."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq, root
+from scipy.optimize import brentq
 
-from reference.closed_forms import BULK, LAWS, MU, principal
+from reference.closed_forms import LAWS
+from reference.test_patches import patch
 from trocar.errors import SolverError
 from trocar.model import Press, Profile, Support
 from trocar.reference import FEASolid, MeshSize
@@ -18,7 +19,6 @@ from trocar.reference.deformed import DeformedBricks
 from trocar.reference.mesh import Bricks
 from trocar.reference.newton import Directions, balance
 from trocar.reference.part import Static
-from trocar.reference.stress import deformations, largest_cauchy_mises
 from trocar.tissues import Fibre, Law, Layer, NeoHookean, Ogden, Tissue
 
 SIZE = (0.03, 0.024)
@@ -54,136 +54,6 @@ def two_layers(law: Law) -> Tissue:
 
 def solid(law: Law, load: tuple[Press, ...] = CENTRAL, support: Support | str = "base") -> FEASolid:
     return FEASolid(two_layers(law), size=SIZE, support=support, around=load, mesh=COARSE)
-
-
-# Patches: uneven bricks, a homogeneous deformation
-
-
-def patch(law: Law) -> tuple[Bricks, tuple[Layer, ...]]:
-    """Bricks of 3 x 2 x 4 mm; the layer has MU and BULK."""
-    x, y, z = (np.array(lines) * 1e-3 for lines in ([0, 1.3, 3], [0, 0.8, 2], [-4, -2.5, -1, 0]))
-    young = 9 * BULK * MU / (3 * BULK + MU)
-    layer = Layer(
-        name="pad",
-        thickness=4e-3,
-        young_modulus=young,
-        poisson_ratio=young / (2 * MU) - 1,
-        density=1e3,
-        law=law,
-    )
-    return Bricks(x=x, y=y, z=z, slab_layer=np.zeros(3, dtype=np.int64)), (layer,)
-
-
-class Prescribed:
-    """Some components of the displacement given, the others free of force."""
-
-    def __init__(self, deformed: DeformedBricks, given: np.ndarray) -> None:
-        self._deformed, self._given = deformed, given
-
-    def field(self, unknowns: np.ndarray) -> np.ndarray:
-        flat = self._given.copy().ravel()
-        flat[self._deformed.free] = unknowns
-        return flat.reshape(self._given.shape)
-
-    def imbalance(self, unknowns: np.ndarray) -> np.ndarray:
-        return self._deformed.forces(self.field(unknowns)).ravel()[self._deformed.free]
-
-    def tangent(self, unknowns: np.ndarray) -> object:
-        return self._deformed.stiffness(self.field(unknowns))
-
-
-def solved(law: Law, gradient: np.ndarray, prescribed: np.ndarray) -> tuple[Bricks, np.ndarray, np.ndarray]:
-    """Return the patch, its displacement and nodal forces, from a start in which the free nodes are astray."""
-    bricks, layers = patch(law)
-    exact = (gradient - np.eye(3)) @ bricks.nodes
-    free = np.flatnonzero(~prescribed.ravel())
-    deformed = DeformedBricks(bricks, layers, free)
-    equations = Prescribed(deformed, np.where(prescribed, exact, 0.0))
-    astray = exact.ravel()[free] + 3e-6 * np.random.default_rng(3).normal(size=len(free))
-    found = balance(
-        equations, astray, scale=MU * 1e-6, tolerance=1e-10, directions=Directions("superlu", reuse=False)
-    )
-    field = equations.field(found.unknowns)
-    np.testing.assert_allclose(field, exact, atol=1e-9 * np.abs(exact).max())
-    return bricks, field, deformed.forces(field)
-
-
-def on(bricks: Bricks, axis: int, upper: bool) -> np.ndarray:
-    lines = (bricks.x, bricks.y, bricks.z)[axis]
-    return np.isclose(bricks.nodes[axis], lines[-1 if upper else 0], rtol=0, atol=1e-9)
-
-
-def rollers(bricks: Bricks) -> np.ndarray:
-    """No way out through the three lower faces."""
-    held = np.zeros(bricks.nodes.shape, dtype=bool)
-    for axis in range(3):
-        held[axis] = on(bricks, axis, False)
-    return held
-
-
-@pytest.mark.parametrize("law", LAWS, ids=by_name)
-@pytest.mark.parametrize("stretch", [0.6, 1.6])
-def test_uniaxial_patch(law: Law, stretch: float) -> None:
-    """Pulled along z, its sides free: they draw in as the closed form has it, and the pull is its stress."""
-
-    found = root(
-        lambda sides: principal(law, np.array([*sides, stretch]))[:2] / MU, [stretch**-0.5] * 2, tol=1e-14
-    )
-    stretches = np.array([*found.x, stretch])
-    bricks, _ = patch(law)
-    prescribed = rollers(bricks)
-    top = on(bricks, 2, True)
-    prescribed[2] |= top
-    bricks, field, forces = solved(law, np.diag(stretches), prescribed)
-    expected = principal(law, stretches)
-    assert forces[2, top].sum() == pytest.approx(expected[2] * 3e-3 * 2e-3, rel=1e-8)
-    cauchy = expected * stretches / stretches.prod()
-    mises = np.sqrt(1.5) * np.linalg.norm(cauchy - cauchy.mean())
-    (found,) = largest_cauchy_mises(bricks, patch(law)[1], [field], prestress=False)
-    assert found == pytest.approx(mises, rel=1e-8)
-    (extent,) = deformations(bricks, patch(law)[1], [field])
-    assert extent.stretch == pytest.approx((stretches.min(), stretches.max()), rel=1e-8)
-    assert extent.volume_ratio == pytest.approx((stretches.prod(),) * 2, rel=1e-8)
-
-
-@pytest.mark.parametrize("law", LAWS, ids=by_name)
-def test_equibiaxial_patch(law: Law) -> None:
-    thin = brentq(lambda s: principal(law, np.array([1.4, 1.4, s]))[2], 0.2, 1.0, xtol=1e-15)
-    stretches = np.array([1.4, 1.4, thin])
-    bricks, _ = patch(law)
-    prescribed = rollers(bricks)
-    for axis in (0, 1):
-        prescribed[axis] |= on(bricks, axis, True)
-    bricks, _, forces = solved(law, np.diag(stretches), prescribed)
-    for axis, area in ((0, 8e-6), (1, 12e-6)):
-        total = forces[axis, on(bricks, axis, True)].sum()
-        assert total == pytest.approx(principal(law, stretches)[axis] * area, rel=1e-8)
-
-
-@pytest.mark.parametrize("law", LAWS, ids=by_name)
-def test_sheared_patch(law: Law) -> None:
-    """Sheared by 0.8 in the plane y-z: the faces bear P e_z, P from the principal values of the stretch."""
-    gradient = np.eye(3)
-    gradient[1, 2] = 0.8
-    turn, stretches, axes = np.linalg.svd(gradient)
-    bricks, _ = patch(law)
-    outer = np.any([on(bricks, axis, upper) for axis in range(3) for upper in (False, True)], axis=0)
-    bricks, _, forces = solved(law, gradient, np.tile(outer, (3, 1)))
-    total = forces[:, on(bricks, 2, True)].sum(axis=1)
-    if isinstance(
-        law, Fibre
-    ):  # not isotropic: the energy's slope by finite differences is in test_hyperelastic
-        assert np.all(np.isfinite(total))
-        return
-    expected = turn @ np.diag(principal(law, stretches)) @ axes @ np.array([0.0, 0.0, 1.0])
-    # edges of the face also carry the neighbouring faces' tractions, but for the face's own in y and z
-    side = forces[:, on(bricks, 1, True) & on(bricks, 2, True)]
-    assert side.shape[1] > 0
-    assert expected[1] > 0
-    balance_of_all = np.abs(forces.sum(axis=1)).max()
-    assert balance_of_all < 1e-10 * np.abs(forces).max()
-    work = float((forces * (bricks.nodes[2] * np.array([[0.0], [1.0], [0.0]]))).sum())
-    assert work == pytest.approx(expected[1] * 24e-9, rel=1e-9)  # d(energy)/d(shear) = P_yz times the volume
 
 
 # The assembled equations
