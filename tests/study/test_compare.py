@@ -9,10 +9,13 @@ import pytest
 
 from trocar.errors import InputError
 from trocar.model import Support
-from trocar.study.cases.reading import load_case
+from trocar.reference.stress import Deformation
+from trocar.study.cases.reading import Tool, case_from_tissue, load_case
 from trocar.study.compare import compare
+from trocar.study.deflection import deflections, search_points
 from trocar.study.models import MOST_MODES, QUICK_MODELS, check_names, series_modes
 from trocar.study.stated_range import departures
+from trocar.tissues import Fibre, Layer, NeoHookean, Tissue
 from trocar.waves.solid import WaveSolid
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
@@ -153,3 +156,62 @@ def test_the_quick_models_are_coarser():
     assert quick.dofs < usual.dofs / 2
     for layer, depths in usual.deflection.items():
         assert quick.deflection[layer] == pytest.approx(depths, rel=0.015, abs=1e-12)
+
+
+def pressed_hard(law, **more):
+    """One layer, so that quick finite elements have few unknowns: 0.3 N on 10 mm, a seventh of the thickness deep."""
+    pad = Layer(name="pad", thickness=8e-3, young_modulus=2e4, poisson_ratio=0.45, density=1e3, law=law)
+    values = {"diameter": 0.01, "position": (0.01, 0.01), "peak": 0.3, "rate": 0.1} | more
+    return case_from_tissue(
+        tissue=Tissue(layers=(pad,)), size=(0.02, 0.02), tools=(Tool(**values),), period=0.25
+    )
+
+
+def test_finite_elements_follow_large_deformation_and_waves_beside_them_say_they_do_not():
+    case = pressed_hard(NeoHookean())
+    result = compare(case, ("wave-solid", "fea"), builders=QUICK_MODELS)
+    waves, elements = result["wave-solid"], result["fea"]
+    assert elements.large_deformation
+    assert elements.in_range
+    assert not waves.large_deformation
+    assert not waves.in_range
+    assert elements.linear_range.force_limit == pytest.approx(waves.linear_range.force_limit, rel=0.05)
+    depths = elements.deflection["pad"]
+    assert depths[0] == depths[-1] == 0.0
+    model = QUICK_MODELS["fea"](case)
+    points = search_points(case.size, case.load_at(0.0))
+    for number in (2, 9, 12):  # the curve between the forces that are solved, the release, the peak
+        state = model.static(case.load_at(elements.time[number]))
+        direct = deflections(model, state, points, ("pad",)).max()
+        assert depths[number] == pytest.approx(direct, rel=1e-3)
+    small = compare(replace(case, tissue=case.tissue.linearised), ("fea",), builders=QUICK_MODELS)["fea"]
+    assert depths[1] / small.deflection["pad"][1] == pytest.approx(1, abs=0.05)
+    assert abs(depths.max() / small.deflection["pad"].max() - 1) > 0.01
+
+
+def test_tools_that_do_not_keep_their_ratio_are_followed_together():
+    case = pressed_hard(NeoHookean())
+    (tool,) = case.tools
+    one, other = (
+        replace(tool, diameter=5e-3, peak=0.06, position=at) for at in ((5e-3, 0.01), (0.015, 0.01))
+    )
+    pair = replace(case, tools=(one, replace(other, rate=0.2)), sampling=replace(case.sampling, period=0.5))
+    history = compare(pair, ("fea",), builders=QUICK_MODELS)["fea"]
+    assert np.isfinite(history.block).all()
+    assert history.block[-1] == 0.0
+    assert history.block.max() > 0.0
+
+
+def test_waves_leave_fibres_out_and_say_so():
+    case = pressed_hard(Fibre(k1=1e4, k2=1.0), peak=0.01, rate=0.01)
+    history = compare(case, ("wave-solid",))["wave-solid"]
+    assert history.linear_range.inside
+    assert not history.in_range
+    assert any("fibres" in reason for reason in history.departures)
+
+
+def test_tissue_squeezed_beyond_its_law_is_reported():
+    case = pressed_hard(NeoHookean())
+    squeezed = {"pad": Deformation(stretch=(0.21, 2.0), volume_ratio=(0.9, 1.1))}
+    (reason,) = departures(case, "fea", fit_error=0.0, modes=None, deformation=squeezed)
+    assert "pad is squeezed to 0.21 of its length" in reason

@@ -74,8 +74,14 @@ def _print(result: Comparison) -> None:
     table.add_section()
     table.add_row("processor time, s", *(f"{history.cpu_seconds:.3g}" for history in result.histories))
     table.add_row("unknowns", *(f"{history.dofs}" for history in result.histories))
-    limits = [history.linear_range for history in result.histories]
-    table.add_row("in the linear range", *("yes" if limit.inside else "NO" for limit in limits))
+    linear = [history for history in result.histories if not history.large_deformation]
+    table.add_row(
+        "in the linear range",
+        *(
+            "needs none" if history.large_deformation else "yes" if history.linear_range.inside else "NO"
+            for history in result.histories
+        ),
+    )
     table.add_row(
         "stated for this case", *("NO" if history.departures else "yes" for history in result.histories)
     )
@@ -86,9 +92,15 @@ def _print(result: Comparison) -> None:
     for history in result.histories:
         for reason in history.departures:
             console.print(f"{history.model} is not stated for this case: {reason}.", style="bold")
-    if not all(limit.inside for limit in limits):
-        least = min(limit.force_limit for limit in limits)
+    if not all(history.linear_range.inside for history in linear):
+        least = min(history.linear_range.force_limit for history in linear)
+        whose = (
+            f"of {', '.join(history.model for history in linear)} "
+            if len(linear) < len(result.histories)
+            else ""
+        )
         console.print(
-            f"Outside the linear range: above {least:.2g} N these numbers are linear extrapolation, no prediction.",
+            f"Outside the linear range: above {least:.2g} N these numbers {whose}are linear extrapolation, "
+            "no prediction.",
             style="bold",
         )

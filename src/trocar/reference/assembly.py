@@ -23,7 +23,8 @@ from trocar.model import FloatArray
 from trocar.reference.mesh import EXACT_ORDER, REDUCED_ORDER, Bricks, shape_functions
 from trocar.tissues import Layer
 
-_STABILISATION = 0.1  # share of exact integration in all but the volume
+STABILISATION = 0.1
+"""Share of exact integration in all but the volume [1]."""
 
 
 def stiffness(bricks: Bricks, layers: tuple[Layer, ...]) -> sp.csr_array:
@@ -67,7 +68,7 @@ def mass(bricks: Bricks, layers: tuple[Layer, ...]) -> sp.csr_array:
 
 def _elastic(bricks: Bricks, lame: FloatArray, shear: FloatArray, tension: FloatArray) -> sp.csr_array:
     reduced, exact = (_reference_stiffness(bricks, order) for order in (REDUCED_ORDER, EXACT_ORDER))
-    shearing = _STABILISATION * exact + (1.0 - _STABILISATION) * reduced
+    shearing = STABILISATION * exact + (1.0 - STABILISATION) * reduced
     volume = bricks.edges.prod(axis=0)
     lam, mu, sigma = (values[bricks.element_layer] for values in (lame, shear, tension))
 

@@ -1,10 +1,11 @@
-"""The finite-element reference: a layered linear elastic block, static and dynamic, on scikit-fem.
+"""The finite-element reference: a layered block, static and dynamic, on scikit-fem.
 
     M u'' + C u' + K u + sum over branches G y = f(t),    C = sum over layers of tau K_layer
 
 (Prony series: `branches`) on 20-node bricks with selective reduced integration (`assembly`), a quarter of the block
-at a time (`parity`). Small displacements and strains, isotropic layers perfectly bonded, in-plane prestress as
-geometric stiffness, dead traction. It shares no code with the wave models it judges.
+at a time (`parity`): small displacements and strains, isotropic layers perfectly bonded, in-plane prestress as
+geometric stiffness, dead traction. Layers with a hyperelastic law follow large deformation instead, on the same bricks
+(`large`, `moving`). It shares no code with the wave models it judges.
 """
 
 from __future__ import annotations
@@ -17,13 +18,21 @@ import numpy as np
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
 from trocar.reference.block import MeshSize, quarter_mesh
+from trocar.reference.domain import wholes
 from trocar.reference.forces import NodalForces
+from trocar.reference.large import LargeDeformation
 from trocar.reference.mesh import Bricks
 from trocar.reference.parity import QUARTERS, Parity, fold, mirror_signs, quarter_fields
 from trocar.reference.quarter import QuarterSystem
 from trocar.reference.solver import choose_solver
 from trocar.reference.state import FEAState
-from trocar.reference.stress import largest_compression, largest_von_mises
+from trocar.reference.stress import (
+    Deformation,
+    deformations,
+    largest_cauchy_mises,
+    largest_compression,
+    largest_von_mises,
+)
 from trocar.tissues import Tissue
 
 _CACHED_RESPONSES = 16  # responses kept; each is a few arrays the size of the mesh
@@ -63,6 +72,13 @@ class FEASolid:
         solver: str = "auto",
         massless: bool = False,
     ) -> None:
+        if tissue.large_deformation and tissue.relaxation_times:
+            raise InputError(
+                "tissue: prony",
+                "no series beside laws for large strain",
+                tissue.name,
+                "finite elements remember in linear layers alone",
+            )
         self._tissue = tissue
         self._massless = massless
         self._size = _checked_size(size)
@@ -75,6 +91,13 @@ class FEASolid:
         self._nodal_forces = NodalForces(bricks, self._size)
         self._parities = set(self._forces(tuple(press.with_force(1.0) for press in self._around)))
         self._responses: dict[Load, dict[Parity, FloatArray]] = {}
+        self._large = (
+            LargeDeformation(bricks, tissue, self._size, self._support, self.solver_name)
+            if tissue.large_deformation
+            else None
+        )
+        if self._large:
+            self._large.part(wholes(self._parities))
 
     @property
     def tissue(self) -> Tissue:
@@ -97,13 +120,23 @@ class FEASolid:
         return self._support
 
     @property
+    def large_deformation(self) -> bool:
+        """Whether the layers' laws are followed to large strain."""
+        return self._large is not None
+
+    @property
     def bricks(self) -> Bricks:
         """The mesh of the quarter 0 <= x <= a/2, 0 <= y <= b/2."""
         return self._system.bricks
 
     @property
     def dofs(self) -> int:
-        """Unknowns of the quarter, added over the parities used by `around` and by the loads so far."""
+        """Unknowns of the quarter, added over the parities used by `around` and by the loads so far.
+
+        Under large deformation: of the quarter, half or block that these need.
+        """
+        if self._large:
+            return self._large.dofs
         return sum(len(self._system.free(parity)) for parity in self._parities)
 
     @property
@@ -123,16 +156,22 @@ class FEASolid:
     def static(self, load: Load) -> FEAState:
         """Return the equilibrium under a constant load, at time 0.
 
-        The response to a load is kept, so a history of one load growing and falling costs one solve.
+        The response to a load is kept, so a history of one load growing and falling costs one solve. Under large
+        deformation equilibria are kept and a larger load starts from a smaller one, which changes the answer by what
+        Newton's method leaves: 1e-10 of the load.
 
         Raises:
             InputError: a footprint is not wholly on the block.
-            SolverError: the equations could not be solved accurately.
+            SolverError: the equations could not be solved accurately, or the load was not reached.
         """
         largest = max((abs(press.force) for press in load), default=0.0)
         if largest == 0.0:
             return self.init()
-        response = self._response(tuple(press.with_force(press.force / largest) for press in load))
+        direction = tuple(press.with_force(press.force / largest) for press in load)
+        if self._large:
+            found = self._large.static(direction, self._forces(direction), largest)
+            return FEAState(time=0.0, displacement=found, velocity={})
+        response = self._response(direction)
         parts = {parity: largest * part for parity, part in response.items()}
         return FEAState(time=0.0, displacement=parts, velocity={})
 
@@ -140,7 +179,7 @@ class FEASolid:
         """Advance by dt [s] under a load going linearly from load0 to load1.
 
         Newmark's average acceleration: second order, stable for every dt, no numerical damping. The
-        factorisation is kept for each dt.
+        factorisation is kept for each dt. Under large deformation the step keeps the energy likewise (`moving`).
 
         Raises:
             InputError: dt is not above 0, the loads hold unequally many presses, or one is off the block.
@@ -153,6 +192,8 @@ class FEASolid:
                 "load1", f"{len(load0)} presses, as in load0", len(load1), "give an idle press force 0"
             )
         force0, force1 = self._forces(load0), self._forces(load1)
+        if self._large:
+            return self._large.step(state, (force0, force1), dt)
         parities = {*state.displacement, *state.velocity, *force0, *force1}
         rest = np.zeros(self.bricks.nodes.shape)
         relaxed = np.zeros((len(self._tissue.relaxation_times), *rest.shape))
@@ -202,6 +243,8 @@ class FEASolid:
                 side, whose nodes then carry some of it straight to the support.
         """
         system, forces, total = self._system, self._forces(load), np.zeros(3)
+        if self._large:
+            return self._large.reaction(state, forces)
         every_quarter = np.array(QUARTERS)
         for parity in {*state.displacement, *forces}:
             flat = np.zeros(system.held.size)
@@ -218,7 +261,7 @@ class FEASolid:
         return total
 
     def stress(self, state: FEAState, *, prestress: bool = True) -> dict[str, float]:
-        """Return the largest von Mises stress [Pa] of each layer, at the Gauss points.
+        """Return the largest von Mises stress [Pa] of each layer, at the Gauss points; of Cauchy stress.
 
         Args:
             state: of this model.
@@ -231,9 +274,8 @@ class FEASolid:
             raise InputError(
                 "stress", "an equilibrium, where no Prony branch bears stress", f"a state at {state.time:g} s"
             )
-        values = largest_von_mises(
-            self.bricks, self._tissue.layers, self._quarters(state), prestress=prestress
-        )
+        largest = largest_cauchy_mises if self._large else largest_von_mises
+        values = largest(self.bricks, self._tissue.layers, self._quarters(state), prestress=prestress)
         return dict(zip(self._tissue.layer_names, values, strict=True))
 
     def strength_ratio(self, state: FEAState) -> dict[str, float]:
@@ -245,6 +287,11 @@ class FEASolid:
         """Return the largest share of its thickness that each layer loses anywhere [1]; 1 at most is real."""
         values = largest_compression(self.bricks, self._tissue.layers, self._quarters(state))
         return dict(zip(self._tissue.layer_names, values, strict=True))
+
+    def deformation(self, state: FEAState) -> dict[str, Deformation]:
+        """Return how far each layer is stretched and its volume changed: converged is not yet possible."""
+        found = deformations(self.bricks, self._tissue.layers, self._quarters(state))
+        return dict(zip(self._tissue.layer_names, found, strict=True))
 
     def largest_deflection(self, state: FEAState) -> dict[str, float]:
         """Return the largest deflection [m] of each layer's upper face, over the block; at least 0."""

@@ -18,7 +18,7 @@ def dissection_order(bricks: Bricks) -> IntArray:
     """Return the nodes in the order of their elimination, shape (nodes,)."""
     place = np.stack(
         [
-            _half_index(lines, nodes)
+            half_index(lines, nodes)
             for lines, nodes in zip((bricks.x, bricks.y, bricks.z), bricks.nodes, strict=True)
         ]
     )
@@ -40,7 +40,7 @@ def dissection_order(bricks: Bricks) -> IntArray:
     return np.concatenate(order)
 
 
-def _half_index(lines: np.ndarray, places: np.ndarray) -> IntArray:
+def half_index(lines: np.ndarray, places: np.ndarray) -> IntArray:
     """Number corners 0, 2, 4 ... and the middles between them 1, 3, 5 ..."""
     marks = np.empty(2 * len(lines) - 1)
     marks[0::2], marks[1::2] = lines, 0.5 * (lines[1:] + lines[:-1])

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib import import_module
 from importlib.util import find_spec
+from weakref import finalize
 
 import numpy as np
 import scipy.sparse as sp
@@ -58,12 +59,16 @@ class Factorisation:
     def __init__(self, matrix: sp.csr_array, solver: str) -> None:
         self._matrix = matrix
         try:
-            self._solve = (_pardiso if solver == "pardiso" else _superlu)(matrix)
+            self._solve = (_Pardiso if solver == "pardiso" else _superlu)(matrix)
         except (RuntimeError, ValueError) as error:
             raise SolverError(
                 f"{solver} could not factor the {matrix.shape[0]} unknowns ({error}); "
                 "a layer may be too soft or too thin beside the others, or Poisson's ratio too near 0.5"
             ) from error
+
+    def approximate(self, right: FloatArray) -> FloatArray:
+        """Solve without a look at the residual: to precondition another matrix."""
+        return self._solve(right)
 
     def solve(self, right: FloatArray) -> FloatArray:
         """Solve for a right-hand side, shape (n,).
@@ -89,9 +94,20 @@ def _superlu(matrix: sp.csr_array) -> Solve:
     return splu(matrix.tocsc(), permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options).solve
 
 
-def _pardiso(matrix: sp.csr_array) -> Solve:
-    solver = import_module("pypardiso").PyPardisoSolver(mtype=2)  # 2: real, symmetric, positive definite
-    upper = sp.csr_matrix(sp.triu(matrix, format="csr"))
-    upper.sort_indices()
-    solver.factorize(upper)
-    return lambda right: np.asarray(solver.solve(upper, right), dtype=np.float64)
+class _Pardiso:
+    """One factorisation of MKL's, freed with this object: pypardiso itself keeps what it allocated."""
+
+    def __init__(self, matrix: sp.csr_array) -> None:
+        pypardiso = import_module("pypardiso")
+        solver = pypardiso.PyPardisoSolver(mtype=2)  # 2: real, symmetric, positive definite
+        finalize(self, solver.free_memory, everything=True)
+        self._upper = sp.csr_matrix(sp.triu(matrix, format="csr"))
+        self._upper.sort_indices()
+        self._solver = solver
+        try:
+            solver.factorize(self._upper)
+        except pypardiso.pardiso_wrapper.PyPardisoError as error:  # not positive definite
+            raise ValueError(str(error)) from error
+
+    def __call__(self, right: FloatArray) -> FloatArray:
+        return np.asarray(self._solver.solve(self._upper, right), dtype=np.float64)

@@ -1,12 +1,15 @@
-"""What the tissue bears: von Mises stress, and the nominal strain through each layer."""
+"""What the tissue bears: von Mises stress, stretches, and the nominal strain through each layer."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
 
 from trocar.model import FloatArray
+from trocar.reference.deformed import deformation_gradient
+from trocar.reference.hyperelastic import Material, as_matrix
 from trocar.reference.mesh import REDUCED_ORDER, Bricks, shape_functions
 from trocar.tissues import Layer
 
@@ -45,6 +48,67 @@ def largest_von_mises(
             peak = float(np.einsum("ikeq,ikeq->eq", deviator, deviator).max())
             largest[number] = max(largest[number], sqrt(1.5 * peak))
     return largest
+
+
+def largest_cauchy_mises(
+    bricks: Bricks, layers: tuple[Layer, ...], fields: list[FloatArray], *, prestress: bool
+) -> list[float]:
+    """Return the largest von Mises stress of each hyperelastic layer [Pa]: of the Cauchy stress F S F^T / J.
+
+    Places and arguments are those of `largest_von_mises`.
+    """
+    largest = []
+    for number, layer in enumerate(layers):
+        material = Material(
+            law=layer.law,
+            shear_modulus=layer.shear_modulus,
+            isochoric_share=1.0,
+            bulk_modulus=layer.bulk_modulus,
+            prestress=(layer.prestress_x, layer.prestress_y) if prestress else (0.0, 0.0),
+        )
+        peak = 0.0
+        for gradient in _gradients(bricks, number, fields):
+            second = as_matrix(material.second_piola(gradient, tangent=False)[0])
+            stress = gradient @ second @ gradient.transpose(0, 2, 1) / np.linalg.det(gradient)[:, None, None]
+            deviator = stress - np.trace(stress, axis1=1, axis2=2)[:, None, None] / 3 * np.eye(3)
+            peak = max(peak, float(np.einsum("nij,nij->n", deviator, deviator).max()))
+        largest.append(sqrt(1.5 * peak))
+    return largest
+
+
+@dataclass(frozen=True, kw_only=True)
+class Deformation:
+    """How far a layer is deformed at the 2 x 2 x 2 Gauss points of its elements.
+
+    Args:
+        stretch: smallest and largest principal stretch [1].
+        volume_ratio: smallest and largest determinant of the deformation gradient [1]; 0 or less cannot exist.
+    """
+
+    stretch: tuple[float, float]
+    volume_ratio: tuple[float, float]
+
+
+def deformations(bricks: Bricks, layers: tuple[Layer, ...], fields: list[FloatArray]) -> list[Deformation]:
+    """Return how far each layer is deformed; arguments as in `largest_von_mises`."""
+    found = []
+    for number in range(len(layers)):
+        gradient = np.concatenate(_gradients(bricks, number, fields))
+        stretch = np.linalg.svd(gradient, compute_uv=False)
+        volume = np.linalg.det(gradient)
+        found.append(
+            Deformation(
+                stretch=(float(stretch.min()), float(stretch.max())),
+                volume_ratio=(float(volume.min()), float(volume.max())),
+            )
+        )
+    return found
+
+
+def _gradients(bricks: Bricks, layer: int, fields: list[FloatArray]) -> list[FloatArray]:
+    slopes = shape_functions(bricks.gauss_rule(REDUCED_ORDER)[0])[1]
+    here = np.flatnonzero(bricks.element_layer == layer)
+    return [deformation_gradient(bricks, field, here, slopes).reshape(-1, 3, 3) for field in fields]
 
 
 def largest_compression(bricks: Bricks, layers: tuple[Layer, ...], fields: list[FloatArray]) -> list[float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import process_time
 from typing import Any
 
@@ -42,6 +42,7 @@ class History:
         linear_range: how far the largest load of all tools together lies from the end of the linear range.
         fit_error: how far a fitted model missed what it was fitted to [1]; 0 where nothing was fitted.
         departures: why, linearity aside, the model is not stated for this case; empty where it is.
+        large_deformation: whether the model follows it, and the linear range says nothing against its numbers.
     """
 
     model: str
@@ -54,11 +55,12 @@ class History:
     linear_range: LinearRange
     fit_error: float
     departures: tuple[str, ...]
+    large_deformation: bool = False
 
     @property
     def in_range(self) -> bool:
         """Whether the model is stated for this case."""
-        return self.linear_range.inside and not self.departures
+        return (self.large_deformation or self.linear_range.inside) and not self.departures
 
     @property
     def block(self) -> FloatArray:
@@ -79,15 +81,18 @@ def run(
         progress: told the share done, 0 to 1.
     """
     began = process_time()
-    model = build(case)
+    model: Any = build(case)
     times = case.sample_times()
     layers = case.tissue.layer_names
     peaks = tuple(tool.press(tool.peak) for tool in case.tools)
     furthest: State | None = None
+    large = getattr(model, "large_deformation", False)
     if case.rigid:
         depths, setup, peaks = _rigid(case, model, times, progress)
     elif case.sampling.dynamic or case.tissue.relaxation_times:
         depths, setup, furthest = _moving(case, model, times, progress)
+    elif large:
+        depths, setup = _following(case, model, times, progress)
     else:
         depths, setup = _quasi_static(case, model, times, progress)
     done = process_time()
@@ -101,8 +106,17 @@ def run(
         setup_seconds=setup - began,
         dofs=model.dofs,
         fit_error=fit_error,
-        departures=departures(case, name, fit_error=fit_error, modes=getattr(model, "modes", None)),
-        linear_range=linear_range(model, case.tissue, peaks, furthest),
+        departures=departures(
+            case,
+            name,
+            fit_error=fit_error,
+            modes=getattr(model, "modes", None),
+            deformation=model.deformation(furthest or model.static(peaks)) if large else None,
+        ),
+        linear_range=_range_at_small_strain(case, build, peaks)
+        if large
+        else linear_range(model, case.tissue, peaks, furthest),
+        large_deformation=large,
     )
 
 
@@ -125,6 +139,36 @@ def _quasi_static(
     for i, at in enumerate(forces):
         depths[:, i] = np.tensordot(at, np.stack(units), 1).max(axis=1)
     return depths, setup
+
+
+def _following(
+    case: Case, model: AnyModel, times: FloatArray, progress: Progress
+) -> tuple[FloatArray, float]:
+    """Find equilibria that do not superpose: few of a load that keeps its direction, else every one."""
+    points = search_points(case.size, case.load_at(0.0))
+    setup = process_time()
+    totals = np.array([[press.force for press in case.load_at(t)] for t in times])
+    distinct, places = np.unique(totals, axis=0, return_inverse=True)
+    sizes = distinct.max(axis=1)
+    direction = distinct[np.argmax(sizes)] / sizes.max()
+    alike = bool(np.allclose(distinct, np.outer(sizes, direction), rtol=_SAME, atol=_SAME * sizes.max()))
+    forces = np.outer(_spread(sizes), direction) if alike else distinct
+    depths = np.zeros((len(forces), len(case.tissue.layer_names)))
+    load = case.load_at(0.0)
+    for i, at in enumerate(forces):
+        if at.any():
+            pressed = tuple(press.with_force(float(force)) for press, force in zip(load, at, strict=True))
+            depths[i] = deflections(model, model.static(pressed), points, case.tissue.layer_names).max(axis=1)
+        progress((i + 1) / len(forces))
+    if alike:
+        depths = _between(forces.max(axis=1), depths, sizes)
+    return depths[places.ravel()].T, setup
+
+
+def _range_at_small_strain(case: Case, build: Callable[[Case], AnyModel], peaks: Load) -> LinearRange:
+    """Judge the same layers at small strain: the force at which linear models leave their range."""
+    linear = replace(case, tissue=case.tissue.linearised)
+    return linear_range(build(linear), linear.tissue, peaks)
 
 
 def _rigid(case: Case, model: Any, times: FloatArray, progress: Progress) -> tuple[FloatArray, float, Load]:

@@ -2,21 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from trocar.model import Profile
+from trocar.reference.stress import Deformation
 from trocar.study.cases.experiment import Case
+from trocar.tissues import Fibre
 from trocar.units import MILLIMETRE
 from trocar.waves.clamped import SIDE_MODES
 from trocar.waves.cutoff import modes_for
 
 LARGEST_FIT_ERROR = 0.05  # what the study asks of fitted membranes
 LEAST_GAP = 3.0  # from a tool's rim to a clamped side, in the shortest half waves that resolve it: 1 % beyond
+LEAST_STRETCH = 0.3  # of tissue squeezed under large deformation: no law here was fitted to less
 _SHARE_LEFT_OUT = 0.05  # by the rule's envelope, of a membrane's series that was cut off
 
 MEMBRANE = "wave-membrane"
 WAVES = (MEMBRANE, "wave-solid")
 
 
-def departures(case: Case, model: str, *, fit_error: float, modes: tuple[int, int] | None) -> tuple[str, ...]:
+def departures(
+    case: Case,
+    model: str,
+    *,
+    fit_error: float,
+    modes: tuple[int, int] | None,
+    deformation: Mapping[str, Deformation] | None = None,
+) -> tuple[str, ...]:
     """Return why a model is not stated for a case, a clause each; empty where it is.
 
     Args:
@@ -24,8 +36,17 @@ def departures(case: Case, model: str, *, fit_error: float, modes: tuple[int, in
         model: its name.
         fit_error: how far a fitted model missed what it was fitted to [1].
         modes: highest m and n of its series; None where it has none.
+        deformation: of each layer at its largest, where the model follows large deformation.
     """
     found = []
+    for name, layer in (deformation or {}).items():
+        if layer.stretch[0] < LEAST_STRETCH:
+            found.append(
+                f"{name} is squeezed to {layer.stretch[0]:.2g} of its length, and below {LEAST_STRETCH:g} its law "
+                "is no measurement"
+            )
+    if model in (*WAVES, "wave-mesh") and any(isinstance(layer.law, Fibre) for layer in case.tissue.layers):
+        found.append("it leaves the fibres out, taking every law as linear")
     if model in WAVES and case.support.sides_clamped:
         if case.sampling.dynamic:
             found.append("clamped sides hold moving waves without inertia of their own")

@@ -1,4 +1,4 @@
-"""One layer of tissue: an isotropic, linear slab that damps and remembers, with in-plane prestress.
+"""One layer of tissue: an elastic slab with a law that damps and remembers, with in-plane prestress.
 
 Its relaxation modulus is a Prony series (generalised Maxwell model; Christensen 1982, Theory of Viscoelasticity,
 ch. 1) relative to the long-term modulus, at a constant Poisson's ratio,
@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from math import inf, isfinite, pi
 
 from trocar.errors import InputError
+from trocar.tissues.law import LINEAR, Law
 
 Prony = tuple[tuple[float, float], ...]
 """Terms (g, tau) of a Prony series: weight [1] and relaxation time [s]."""
@@ -41,6 +42,7 @@ class Layer:
         prony: terms (g, tau) of the relaxation modulus: weight relative to the long-term modulus [1], 0 or above,
             and relaxation time [s], each time once; empty where the layer does not remember.
         tensile_strength: stress at which the layer tears [Pa]; infinite where unknown.
+        law: how stress follows from stretch; the wave models take every law as linear.
 
     Raises:
         InputError: a value is not finite or not possible.
@@ -57,6 +59,7 @@ class Layer:
     loss_frequency: float = 50.0
     prony: Prony = ()
     tensile_strength: float = inf
+    law: Law = LINEAR
 
     def __post_init__(self) -> None:
         if not self.name:
@@ -128,6 +131,11 @@ class Layer:
         """Lame's first parameter lambda = E nu / ((1 + nu)(1 - 2 nu)) [Pa]."""
         nu = self.poisson_ratio
         return self.young_modulus * nu / ((1 + nu) * (1 - 2 * nu))
+
+    @property
+    def bulk_modulus(self) -> float:
+        """K = E / (3 (1 - 2 nu)) [Pa]."""
+        return self.young_modulus / (3 * (1 - 2 * self.poisson_ratio))
 
     @property
     def retardation_time(self) -> float:

@@ -12,6 +12,7 @@ from enum import StrEnum
 from typing import Any
 
 from trocar.errors import InputError
+from trocar.tissues.law import LINEAR
 from trocar.tissues.layer import Layer
 from trocar.tissues.quantity import LAYER_QUANTITIES, PAPER_QUANTITIES, Quantity
 from trocar.tissues.tissue import Tissue
@@ -154,7 +155,7 @@ class LayerRecord:
     def layer(self) -> Layer:
         """Return the layer in SI, for a model."""
         values: dict[str, Any] = {item.key: item.si for item in self.properties}
-        return Layer(name=self.name, **values)
+        return Layer(name=self.name, law=LINEAR, **values)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from trocar.errors import InputError
+from trocar.tissues.law import LINEAR, Linear
 from trocar.tissues.layer import MOST_TERMS, Layer
 
 
@@ -17,7 +18,8 @@ class Tissue:
         name: what the tissue is called in reports.
 
     Raises:
-        InputError: there is no layer, two share a name, or there are too many different relaxation times.
+        InputError: there is no layer, two share a name, only some of them have a linear law, or there are too many
+            different relaxation times.
     """
 
     layers: tuple[Layer, ...]
@@ -36,6 +38,24 @@ class Tissue:
                 len(self.relaxation_times),
                 "let layers share their times",
             )
+        linear = [layer.name for layer in self.layers if isinstance(layer.law, Linear)]
+        if 0 < len(linear) < len(self.layers):
+            raise InputError(
+                f"tissue {self.name!r}: law",
+                "every layer linear or none: a block deforms little or much as a whole",
+                f"linear {', '.join(linear)} beside others",
+                "take neo-hookean for the linear layers",
+            )
+
+    @property
+    def large_deformation(self) -> bool:
+        """Whether the layers' laws hold at large strain, so that finite elements follow large deformation."""
+        return not isinstance(self.layers[0].law, Linear)
+
+    @property
+    def linearised(self) -> Tissue:
+        """The same layers at small strain, their fibres left out."""
+        return replace(self, layers=tuple(replace(layer, law=LINEAR) for layer in self.layers))
 
     @property
     def layer_names(self) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from study.cases.broken_cases import EXAMPLES
 from trocar.errors import InputError
 from trocar.model import Support
 from trocar.study.cases.reading import Case, Sampling, Tool, load_case
-from trocar.tissues import Layer
+from trocar.tissues import Fibre, Layer, NeoHookean, Ogden
 
 PRESS = next(path for path in EXAMPLES if path.stem == "press")
 VALID = PRESS.read_text("utf-8")
@@ -104,6 +104,58 @@ def test_examples_load(file):
     assert case.sample_times().size > 5
 
 
+def test_laws_arrive_in_si():
+    case = load_case(next(path for path in EXAMPLES if path.stem == "large-force"))
+    laws = [layer.law for layer in case.tissue.layers]
+    assert laws == [
+        NeoHookean(),
+        Fibre(k1=5e4, k2=5.0, dispersion=0.1, angle=40 * (pi / 180)),
+        Ogden(terms=((1.0, 8.0),)),
+    ]
+    assert case.tissue.large_deformation
+
+
+OGDEN, FIBRES = "ogden = [[1.0, 8.0]]", "fibre = { k1_kpa = 50, k2 = 5, dispersion = 0.1, angle_deg = 40 }"
+LAW_CHANGES = [
+    (OGDEN, "ogden = []", "layer[2].ogden", "1 to 6 pairs"),
+    (OGDEN, "ogden = [1.0, 8.0]", "layer[2].ogden[0]", "a pair [share, alpha], got 1.0"),
+    (OGDEN, "ogden = 8.0", "layer[2].ogden", "1 to 6 pairs"),
+    (OGDEN, "ogden = [[1.0, 8.0, 2.0]]", "layer[2].ogden[0]", "a pair"),
+    (OGDEN, "ogden = [[1.0, nan]]", "layer[2].ogden[0][1]", "-50 to 50, got nan"),
+    (OGDEN, "ogden = [[1.0, true]]", "layer[2].ogden[0][1]", "got True"),
+    (OGDEN, "ogden = [[1.0, 0.0]]", "layer[2].ogden", "either sign, got 0.0"),
+    (OGDEN, "ogden = [[0.5, 8.0], [0.4, 2.0]]", "layer[2].ogden", "divide each by their sum"),
+    (OGDEN, "ogden = [[1.5, 8.0], [-0.5, 2.0]]", "layer[2].ogden[0][0]", "got 1.5"),
+    (OGDEN, f"ogden = [[1.0, {10**400}]]", "layer[2].ogden[0][1]", "got 1"),
+    (OGDEN, 'ogden = "soft"', "layer[2].ogden", "got 'soft'"),
+    (OGDEN, "", "layer[2].ogden", "got nothing"),
+    (FIBRES, "", "layer[1].fibre", "got nothing"),
+    (FIBRES, "fibre = 3", "layer[1].fibre", "got 3"),
+    (FIBRES, "fibre = { k1_kpa = 50, k2 = 5, dispersion = 0.1 }", "layer[1].fibre.angle_deg", "got nothing"),
+    (FIBRES, FIBRES.replace("k1_kpa", "k1_pa"), "layer[1].fibre.k1_pa", "did you mean k1_kpa?"),
+    (FIBRES, FIBRES.replace("50", "-50"), "layer[1].fibre.k1_kpa", "got -50"),
+    (FIBRES, FIBRES.replace("0.1", "0.4"), "layer[1].fibre.dispersion", "1/3 isotropic"),
+    (FIBRES, FIBRES.replace("0.1", "0.33333333"), None, None),
+    (FIBRES, FIBRES.replace("40", "91"), "layer[1].fibre.angle_deg", "0 to 90 deg"),
+    (FIBRES, FIBRES.replace("5,", "nan,"), "layer[1].fibre.k2", "got nan"),
+    ('law = "neo-hookean"', "", "layer[1].law", "expected \"linear\", as layer[0], got 'fibre'"),
+    (f'law = "fibre"\n{FIBRES}', "", "layer[1].law", "got 'linear'; a block deforms little or much"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "where", "words"), LAW_CHANGES)
+def test_a_law_is_read_as_strictly_as_the_rest(tmp_path, old, new, where, words):
+    valid = next(path for path in EXAMPLES if path.stem == "large-force").read_text("utf-8")
+    assert old in valid
+    file = write(tmp_path, valid.replace(old, new, 1))
+    if where is None:
+        load_case(file)
+        return
+    error = refusal(file)
+    assert error.where == f"{file}: {where}"
+    assert words in str(error)
+
+
 def test_examples_are_what_they_say():
     by_name = {file.stem: load_case(file) for file in EXAMPLES}
     assert by_name["paper-5n"].sample_times().size == 81
@@ -162,9 +214,11 @@ CHANGES = [
     ('name = "fat"', 'name = "fat"\nprony = [[0.5, 1], [0.2, 1.0]]', "layer[2].prony", "every tau once"),
     ('name = "fat"', f'name = "fat"\nprony = {[[0.1, t] for t in range(1, 10)]}', "layer[2].prony", "at most 8"),
     ('name = "dermis"', f'name = "dermis"\nprony = {[[0.1, t] for t in range(1, 9)]}', None, None),
-    ('name = "fat"', 'name = "fat"\nlaw = "neo-hookean"', "layer[2].law", "built so far"),
-    ('name = "fat"', 'name = "fat"\nlaw = "ogden"', "layer[2].law", "built so far"),
-    ('name = "fat"', 'name = "fat"\nlaw = "fibre"', "layer[2].law", "built so far"),
+    ('name = "fat"', 'name = "fat"\nlaw = "neo-hookean"', "layer[2].law", 'expected "linear", as layer[0], got'),
+    ('name = "fat"', 'name = "fat"\nlaw = "ogden"', "layer[2].ogden", "1 to 6 pairs [share, alpha], got nothing"),
+    ('name = "fat"', 'name = "fat"\nlaw = "fibre"', "layer[2].fibre", "got nothing"),
+    ('name = "fat"', 'name = "fat"\nogden = [[1.0, 2.0]]', "layer[2].ogden", 'only beside law = "ogden"'),
+    ('name = "fat"', 'name = "fat"\nfibre = {}', "layer[2].fibre", 'only beside law = "fibre"'),
     ('name = "fat"', 'name = "fat"\nlaw = "liner"', "layer[2].law", 'did you mean "linear"?'),
     ('contact = "dead"', 'contact = "rigid"', None, None),
     ('contact = "dead"', 'contact = "ridgid"', "tool[0].contact", 'did you mean "rigid"?'),

@@ -131,13 +131,19 @@ class Case:
 
         soft = min(range(len(layers)), key=lambda i: layers[i].young_modulus)
         stiffest = max(
-            max(layer.instantaneous_modulus, layer.prestress_x, layer.prestress_y) for layer in layers
+            max(
+                layer.instantaneous_modulus,
+                layer.prestress_x,
+                layer.prestress_y,
+                getattr(layer.law, "k1", 0.0),
+            )
+            for layer in layers
         )
         stiffness_ratio = stiffest / layers[soft].young_modulus
         if stiffness_ratio > q.MOST_STIFFNESS_RATIO:
             raise InputError(
                 f"layer[{soft}].young_modulus",
-                f"every modulus and prestress at most {q.MOST_STIFFNESS_RATIO:g} times this one",
+                f"every modulus, k1 and prestress at most {q.MOST_STIFFNESS_RATIO:g} times this one",
                 stiffness_ratio,
                 "such a contrast cannot be solved in double precision",
             )

@@ -53,17 +53,10 @@ class Table:
         """Return the error that says what is wrong with a key."""
         return InputError(self.where(key), expected, got, advice)
 
-    def only(self, keys: Iterable[str], unbuilt: Mapping[str, str] | None = None) -> None:
-        """Refuse keys that are not known, suggesting the closest.
-
-        Args:
-            keys: the keys this table may hold.
-            unbuilt: keys that are specified but not built yet, with what to use instead.
-        """
+    def only(self, keys: Iterable[str]) -> None:
+        """Refuse keys that are not known, suggesting the closest."""
         known = tuple(keys)
-        for key, value in self.content.items():
-            if unbuilt and key in unbuilt:
-                raise self.refuse(key, "this key left out: it is not built yet", value, unbuilt[key])
+        for key in self.content:
             if key not in known:
                 near = get_close_matches(key[:100], known, n=1, cutoff=0.5)
                 advice = f"did you mean {near[0]}?" if near else ""
@@ -80,7 +73,7 @@ class Table:
         key = quantity.key
         if key not in self.content and quantity.default is not None:
             return quantity.default * quantity.factor
-        return self._convert(key, quantity, self.value(key, quantity.expected))
+        return self.convert(key, quantity, self.value(key, quantity.expected))
 
     def pair(self, quantity: Quantity) -> tuple[float, float]:
         """Return two numbers [SI]."""
@@ -92,7 +85,7 @@ class Table:
         value = self.value(key, expected)
         if not isinstance(value, list) or len(value) != 2:
             raise self.refuse(key, expected, value)
-        first, second = (self._convert(f"{key}[{i}]", quantity, item) for i, item in enumerate(value))
+        first, second = (self.convert(f"{key}[{i}]", quantity, item) for i, item in enumerate(value))
         return first, second
 
     def pairs(self, first: Quantity, second: Quantity, most: int) -> tuple[tuple[float, float], ...]:
@@ -106,8 +99,8 @@ class Table:
         for i, pair in enumerate(value):
             if not isinstance(pair, list) or len(pair) != 2:
                 raise self.refuse(f"{key}[{i}]", f"a pair [{first.expected}, {second.expected}]", pair)
-            one, other = self._convert(f"{key}[{i}][0]", first, pair[0]), pair[1]
-            found.append((one, self._convert(f"{key}[{i}][1]", second, other)))
+            one, other = self.convert(f"{key}[{i}][0]", first, pair[0]), pair[1]
+            found.append((one, self.convert(f"{key}[{i}][1]", second, other)))
         return tuple(found)
 
     def text(self, key: str, default: str | None = None) -> str:
@@ -127,29 +120,19 @@ class Table:
             raise self.refuse(key, "true or false", value)
         return value
 
-    def choice(
-        self,
-        key: str,
-        built: tuple[str, ...],
-        *,
-        default: str | None = None,
-        unbuilt: Mapping[str, str] | None = None,
-    ) -> str:
-        """Return one word out of `built`.
+    def choice(self, key: str, words: tuple[str, ...], *, default: str | None = None) -> str:
+        """Return one of some words.
 
         Args:
             key: the key.
-            built: what may be chosen.
+            words: what may be chosen.
             default: taken where the key is left out; None where it may not be.
-            unbuilt: words that are specified but not built yet, with what to use instead.
         """
-        expected = " or ".join(f'"{word}"' for word in built)
+        expected = " or ".join(f'"{word}"' for word in words)
         value = default if default is not None and key not in self.content else self.value(key, expected)
-        if isinstance(value, str) and value in built:
+        if isinstance(value, str) and value in words:
             return value
-        if isinstance(value, str) and unbuilt and value in unbuilt:
-            raise self.refuse(key, f"{expected} (all that is built so far)", value, unbuilt[value])
-        near = get_close_matches(value[:100], built, n=1) if isinstance(value, str) else []
+        near = get_close_matches(value[:100], words, n=1) if isinstance(value, str) else []
         raise self.refuse(key, expected, value, f'did you mean "{near[0]}"?' if near else "")
 
     def table(self, key: str) -> Table:
@@ -158,7 +141,7 @@ class Table:
         value = self.value(key, expected)
         if not isinstance(value, dict):
             raise self.refuse(key, expected, value)
-        return Table(self.file, key, value)
+        return Table(self.file, f"{self.path}.{key}" if self.path else key, value)
 
     def tables(self, key: str, most: int) -> tuple[Table, ...]:
         """Return the array of tables [[key]], 1 to `most` of them."""
@@ -170,7 +153,7 @@ class Table:
             raise self.refuse(key, expected, len(value))
         return tuple(Table(self.file, f"{key}[{i}]", item) for i, item in enumerate(value))
 
-    def _convert(self, key: str, quantity: Quantity, value: object) -> float:
+    def convert(self, key: str, quantity: Quantity, value: object) -> float:
         """Return `value` of the file's unit in SI, refusing what is not a possible number."""
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise self.refuse(key, quantity.expected, value)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 from trocar.errors import InputError
+from trocar.tissues.law import MOST_ALPHA, MOST_K2
 from trocar.tissues.layer import GIVE_LONG_TERM, LARGEST_WEIGHT, LONGEST_TIME, SHORTEST_TIME
 from trocar.units import DEGREE, KILOPASCAL, MILLIMETRE
 
@@ -102,6 +103,18 @@ PRONY_TIME = Quantity(
     advice="leave out what relaxes faster or slower than anything seen",
 )  # fmt: skip
 LAYER = (THICKNESS, YOUNG_MODULUS, POISSON_RATIO, DENSITY, LOSS_FACTOR, LOSS_FREQUENCY)
+
+SHARE = Quantity(name="share", key="ogden", unit="", factor=1.0, low=1e-9, high=1)
+ALPHA = Quantity(name="alpha", key="ogden", unit="", factor=1.0, low=-MOST_ALPHA, high=MOST_ALPHA)
+FIBRE = (
+    Quantity(name="k1", key="k1_kpa", unit="kPa", factor=KILOPASCAL, low=0, high=1e9),
+    Quantity(name="k2", key="k2", unit="", factor=1.0, low=0, high=MOST_K2),
+    Quantity(
+        name="dispersion", key="dispersion", unit="", factor=1.0, low=0, high=0.333334,
+        advice="0 is all parallel, 1/3 isotropic",
+    ),
+    Quantity(name="angle", key="angle_deg", unit="deg", factor=DEGREE, low=0, high=90),
+)  # fmt: skip
 
 DIAMETER = Quantity(name="diameter", key="diameter_mm", unit="mm", factor=MILLIMETRE, low=0.01, high=1000)
 POSITION = Quantity(name="position", key="position_mm", unit="mm", factor=MILLIMETRE, low=0, high=1000)

@@ -18,6 +18,7 @@ from trocar.model import Support
 from trocar.study.cases import quantity as q
 from trocar.study.cases.experiment import Case, Sampling, case_from_tissue
 from trocar.study.cases.key_table import NOTHING, Table, Words, printable
+from trocar.study.cases.law import LAW_KEYS, read_law, refuse_mixture
 from trocar.study.cases.tool import Contact, Tip, Tool
 from trocar.tissues import Layer, Tissue
 from trocar.tissues.layer import MOST_TERMS
@@ -27,12 +28,10 @@ __all__ = ["Case", "Sampling", "Tool", "case_from_tissue", "load_case"]
 MOST_BYTES = 1_000_000  # a case is about a kilobyte
 
 _BLOCK_KEYS = (q.SIDE.key, "support")
-_LAYER_KEYS = ("name", *(item.key for item in q.LAYER), q.PRESTRESS.key, q.PRONY_TIME.key, "law")
+_LAYER_KEYS = ("name", *(item.key for item in q.LAYER), q.PRESTRESS.key, q.PRONY_TIME.key, *LAW_KEYS)
 _TOOL_KEYS = ("tip", "contact", q.POSITION.key, *(item.key for item in q.TOOL))
 _SAMPLING_KEYS = (q.PERIOD.key, "dynamic")
 _FILE_KEYS = {item.name: item.key for item in (q.SIDE, *q.LAYER, q.PRESTRESS, *q.TOOL, q.POSITION, q.PERIOD)}
-
-_UNBUILT_LAWS = dict.fromkeys(("neo-hookean", "ogden", "fibre"), 'use "linear" and a small force')
 
 
 def load_case(path: str | os.PathLike[str]) -> Case:
@@ -46,7 +45,7 @@ def load_case(path: str | os.PathLike[str]) -> Case:
 
     Raises:
         InputError: the file cannot be read, or something in it is unknown, missing, of the wrong type,
-            impossible or not built yet; the message is one line naming file, key, expectation and value.
+            or impossible; the message is one line naming file, key, expectation and value.
     """
     file = printable(os.fspath(path))
     root = Table(file, "", _parse(file, _read(file, path)))
@@ -113,18 +112,20 @@ def _parse(file: str, content: bytes) -> dict[str, object]:
 
 def _layers(root: Table) -> tuple[Layer, ...]:
     layers: list[Layer] = []
-    for table in root.tables("layer", q.MOST_LAYERS):
+    tables = root.tables("layer", q.MOST_LAYERS)
+    for table in tables:
         layer = _layer(table)
         if layer.name in (other.name for other in layers):
             raise table.refuse("name", "every layer's name once", layer.name)
         layers.append(layer)
+    refuse_mixture(tables, layers)
     return tuple(layers)
 
 
 def _layer(table: Table) -> Layer:
     table.only(_LAYER_KEYS)
     name = table.text("name")
-    table.choice("law", ("linear",), default="linear", unbuilt=_UNBUILT_LAWS)
+    law = read_law(table)
     loss, frequency = q.LOSS_FACTOR.key, q.LOSS_FREQUENCY.key
     for present, absent in ((loss, frequency), (frequency, loss)):
         if present in table.content and absent not in table.content:
@@ -137,7 +138,7 @@ def _layer(table: Table) -> Layer:
         raise table.refuse(
             q.PRONY_TIME.key, "every tau once", table.content["prony"], "add the weights of equal times"
         )
-    return Layer(name=name, prestress_x=prestress_x, prestress_y=prestress_y, prony=prony, **numbers)
+    return Layer(name=name, prestress_x=prestress_x, prestress_y=prestress_y, prony=prony, law=law, **numbers)
 
 
 def _tool(table: Table) -> Tool:

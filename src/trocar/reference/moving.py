@@ -1,0 +1,132 @@
+"""One step in time of a block under large deformation, which neither makes nor loses energy of its own.
+
+With u1 = u0 + D, v1 = 2 D / h - v0 and W what the block stores, the step solves
+
+    M (v1 - v0) / h + integral over x from 0 to 1 of dW/du(u0 + x D) + C D / h = (f0 + f1) / 2 .
+
+The integral's work over the step is W(u1) - W(u0) whatever the law: the average vector field method (R. I. McLachlan,
+G. R. W. Quispel and N. Robidoux 1999, Phil. Trans. R. Soc. A 357:1021), second order, its matrix symmetric. It is
+taken with two Gauss points, so what energy is made is of the order of h^5 a step. For a linear law it is Newmark's
+average acceleration, which is the linear model's step. C is the Kelvin-Voigt damping about u0 + h v0 / 2, near the
+middle of the step: D . C D / h is never below 0, so damping only ever takes energy.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+import scipy.sparse as sp
+
+from trocar.errors import SolverError
+from trocar.model import FloatArray
+from trocar.reference.deformed import InversionError
+from trocar.reference.newton import TOLERANCE, Directions, NewtonError, balance
+from trocar.reference.part import Part
+from trocar.reference.solver import Factorisation
+
+_GAUSS = (
+    (0.5 - 0.5 * sqrt(0.6), 5 / 18),
+    (0.5, 8 / 18),
+    (0.5 + 0.5 * sqrt(0.6), 5 / 18),
+)  # places and weights
+_MOST_HALVINGS = 8
+
+
+class Moving:
+    """The balance of a step: a system of `Equations` for the change D of the free unknowns.
+
+    Args:
+        part: what moves.
+        start: displacement [m] and velocity [m/s] at the start, shape (n,) each.
+        force: mean of the nodal forces at start and end [N], shape (n,).
+        dt: [s].
+    """
+
+    def __init__(
+        self, part: Part, start: tuple[FloatArray, FloatArray], force: FloatArray, dt: float
+    ) -> None:
+        self._part, self._dt = part, dt
+        self._displacement, velocity = start
+        self._damping = part.damping_about(self._displacement + 0.5 * dt * velocity)
+        momentum = 2 / dt * (part.mass @ velocity)
+        self._driven = force + momentum
+        held = np.linalg.norm(part.freed(part.internal(part.spread(self._displacement))))
+        self.scale = float(max(np.linalg.norm(force), np.linalg.norm(momentum), held))
+
+    def imbalance(self, unknowns: FloatArray) -> FloatArray:
+        """Return what is left of the step's equation [N]."""
+        total = 2 / self._dt**2 * (self._part.mass @ unknowns) - self._driven
+        if self._damping is not None:
+            total += self._damping @ unknowns / self._dt
+        for place, weight in _GAUSS:
+            field = self._part.spread(self._displacement + place * unknowns)
+            total += weight * self._part.freed(self._part.internal(field))
+        return np.asarray(total)
+
+    def tangent(self, unknowns: FloatArray) -> sp.csr_array:
+        """Return its derivative [N/m]."""
+        total = 2 / self._dt**2 * self._part.mass
+        if self._damping is not None:
+            total = total + self._damping / self._dt
+        for place, weight in _GAUSS:
+            field = self._part.spread(self._displacement + place * unknowns)
+            total = total + weight * place * self._part.deformed.stiffness(field)
+        return sp.csr_array(total)
+
+
+def rest_factors(part: Part, dt: float) -> Factorisation:
+    """Factor the matrix of a step at rest: what later ones start from, whichever came before."""
+    nothing = np.zeros(len(part.domain.free))
+    return Factorisation(Moving(part, (nothing, nothing), nothing, dt).tangent(nothing), part.solver)
+
+
+def advance(
+    part: Part,
+    start: tuple[FloatArray, FloatArray],
+    forces: tuple[FloatArray, FloatArray],
+    dt: float,
+    factors: Factorisation,
+    halvings: int = 0,
+) -> tuple[FloatArray, FloatArray]:
+    """Step by dt [s]; a step that Newton's method cannot take is taken as two halves.
+
+    Args:
+        part: what moves.
+        start: displacement [m] and velocity [m/s], shape (n,) each, of the free unknowns.
+        forces: nodal forces [N] at start and end, shape (n,) each.
+        dt: [s].
+        factors: of the matrix of such a step at rest.
+        halvings: of the step asked for so far.
+
+    Returns:
+        Displacement and velocity at the end.
+
+    Raises:
+        SolverError: halving did not help; it says where and why.
+    """
+    displacement, velocity = start
+    equations = Moving(part, start, 0.5 * (forces[0] + forces[1]), dt)
+    if equations.scale == 0.0:
+        return displacement, velocity
+    try:
+        found = balance(
+            equations,
+            np.zeros_like(displacement),
+            scale=equations.scale,
+            tolerance=TOLERANCE,
+            directions=Directions(part.solver, factors),
+        )
+        end = displacement + found.unknowns
+        part.deformed.forces(part.spread(end))
+    except (NewtonError, InversionError) as error:
+        if halvings == _MOST_HALVINGS:
+            stopped = error if isinstance(error, NewtonError) else NewtonError(error.reason, error.element)
+            raise SolverError(
+                f"large deformation: a step was halved {halvings} times to {dt:.2g} s and still could not be taken: "
+                f"{part.why(stopped, part.spread(displacement))}; take less force or a slower load"
+            ) from error
+        middle = 0.5 * (forces[0] + forces[1])
+        half = advance(part, start, (forces[0], middle), 0.5 * dt, factors, halvings + 1)
+        return advance(part, half, (middle, forces[1]), 0.5 * dt, factors, halvings + 1)
+    return end, 2 / dt * found.unknowns - velocity

@@ -1,0 +1,76 @@
+"""The law of a layer in a case file: `law`, and the key with its numbers."""
+
+from __future__ import annotations
+
+from trocar.errors import InputError
+from trocar.study.cases import quantity as q
+from trocar.study.cases.key_table import Table
+from trocar.tissues.law import LINEAR, MOST_TERMS, Fibre, Law, NeoHookean, Ogden
+from trocar.tissues.layer import Layer
+
+LAW_KEYS = ("law", "ogden", "fibre")
+_LAWS = ("linear", "neo-hookean", "ogden", "fibre")
+_TERMS = f"1 to {MOST_TERMS} pairs [share, alpha]"
+
+
+def read_law(table: Table) -> Law:
+    """Read the law of a layer.
+
+    Args:
+        table: of the layer.
+
+    Raises:
+        InputError: it is unknown, or its numbers are missing, of the wrong type, impossible or another law's.
+    """
+    law = table.choice("law", _LAWS, default="linear")
+    for key in ("ogden", "fibre"):
+        if key in table.content and law != key:
+            raise table.refuse(
+                key, f'this key only beside law = "{key}"', table.content[key], f'law is "{law}"'
+            )
+    if law == "neo-hookean":
+        return NeoHookean()
+    if law == "ogden":
+        return _ogden(table)
+    if law == "fibre":
+        return _fibre(table.table("fibre"))
+    return LINEAR
+
+
+def refuse_mixture(tables: tuple[Table, ...], layers: list[Layer]) -> None:
+    """Refuse linear layers beside others.
+
+    Raises:
+        InputError: at the first layer that is not like the top one.
+    """
+    linear = [layer.law == LINEAR for layer in layers]
+    for table, one in zip(tables, linear, strict=True):
+        if one is not linear[0]:
+            expected = '"linear", as layer[0]' if linear[0] else 'no "linear" law below one that is not'
+            got = table.content.get("law", "linear")
+            raise table.refuse("law", expected, got, "a block deforms little or much as a whole")
+
+
+def _ogden(table: Table) -> Ogden:
+    value = table.value("ogden", _TERMS)
+    if not isinstance(value, list) or not 1 <= len(value) <= MOST_TERMS:
+        raise table.refuse("ogden", _TERMS, value)
+    terms = []
+    for number, pair in enumerate(value):
+        path = f"ogden[{number}]"
+        if not isinstance(pair, list) or len(pair) != 2:
+            raise table.refuse(path, "a pair [share, alpha]", pair)
+        share, alpha = (
+            table.convert(f"{path}[{place}]", quantity, item)
+            for place, (quantity, item) in enumerate(zip((q.SHARE, q.ALPHA), pair, strict=True))
+        )
+        terms.append((share, alpha))
+    try:
+        return Ogden(terms=tuple(terms))
+    except InputError as error:  # alpha too near 0, or the shares do not add up
+        raise table.refuse("ogden", error.expected, error.got, error.advice) from None
+
+
+def _fibre(table: Table) -> Fibre:
+    table.only(tuple(item.key for item in q.FIBRE))
+    return Fibre(**{item.name: table.number(item) for item in q.FIBRE})
