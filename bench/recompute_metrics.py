@@ -147,6 +147,17 @@ def trapezium(values, times):
     return float(((values[1:] + values[:-1]) / 2 * np.diff(times)).sum())
 
 
+def above(values, times, limit):
+    """Return how long values joined by straight lines are above a limit."""
+    total = 0.0
+    for (a, b), seconds in zip(pairwise(values.tolist()), np.diff(times).tolist(), strict=True):
+        if min(a, b) > limit:
+            total += seconds
+        elif max(a, b) > limit:
+            total += seconds * (max(a, b) - limit) / abs(b - a)
+    return total
+
+
 def largest_work(hands):
     """Return the most both tips had worked since neither touched."""
     vectors = [
@@ -204,7 +215,7 @@ def recompute(table, constants):
             speeds = [np.interp(grid, tip.times, tip.speed()) for tip in tips]
             together = (speeds[0] - speeds[0].mean()) * (speeds[1] - speeds[1].mean())
             dexterity = together.sum() / np.abs(together).sum() if np.abs(together).sum() > 0 else nan
-            moving = float(((speeds[0] > MOVING) & (speeds[1] > MOVING)).mean())
+            moving = above(np.minimum(*speeds), grid, MOVING) / (grid[-1] - grid[0])
     pressed = forces[forces > TOUCHING]
     jerks = [
         sqrt(tip.seconds**5 / (2 * tip.length() ** 2) * tip.jerk_squared())
@@ -228,13 +239,15 @@ def recompute(table, constants):
         "integrated_jerk": max(jerks, default=nan),
         "log_dimensionless_jerk": min(logs, default=nan),
         "sparc_per_movement": min(arcs, default=nan),
-        "idle_time": float(np.mean([(tip.speed() <= MOVING).sum() / RATE for tip in tips])) if tips else nan,
+        "idle_time": float(np.mean([tip.seconds - above(tip.speed(), tip.times, MOVING) for tip in tips]))
+        if tips
+        else nan,
         "bimanual_dexterity": dexterity,
         "both_moving": moving,
         "peak_force": float(worst.max()),
         "rms_force": sqrt((pressed**2).mean()) if len(pressed) else 0.0,
         "impulse": trapezium(forces.sum(axis=0), times),
-        "time_over_limit": trapezium((worst > constants["force_limit_n"]).astype(float), times),
+        "time_over_limit": above(worst, times, constants["force_limit_n"]),
         "peak_stress_ratio": stress / strength if strength else nan,
         "work_on_tissue": largest_work(hands),
         "errors": float(hands[0]["mistakes"][-1]),

@@ -20,7 +20,7 @@ from trocar.simulation import (
 )
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.metrics.measures import MEASURES, measured
-from trocar.training.metrics.motion import smooth_path
+from trocar.training.metrics.motion import smooth_path, time_above
 
 SECONDS, TURN, RADIUS = 20.0, 1.0, 0.015  # a tip goes round twenty times; a jerk of 3.7 m/s^3, as hands have
 NOISE = 20e-6  # [m]
@@ -157,3 +157,11 @@ def test_the_page_on_scores_has_a_line_for_each_measure_with_its_unit_and_no_oth
     table = page.split("| metric |", 1)[1].split("\n\n", 1)[0]
     found = [line.split("|")[1].strip() for line in table.splitlines()[2:]]
     assert found == [f"{measure.name.replace('_', ' ')} [{measure.unit}]" for measure in MEASURES]
+
+
+def test_time_above_a_limit_is_that_of_straight_lines():
+    times, values = np.array([0.0, 1.0, 2.0, 4.0, 5.0]), np.array([0.0, 2.0, 2.0, 0.0, 0.0])
+    assert time_above(times, values, 1.0) == pytest.approx(0.5 + 1.0 + 1.0)
+    assert time_above(times, values, 2.0) == 0.0
+    assert time_above(times, values, -1.0) == 5.0
+    assert time_above(times, values, np.inf) == 0.0

@@ -20,6 +20,7 @@ import numpy as np
 from trocar.model import FloatArray
 from trocar.simulation import DIRECTION, FORCE, MOMENT, RECORD_ROLL, TIP
 from trocar.training.metrics.attempt import Attempt
+from trocar.training.metrics.motion import time_above
 
 TOUCHING = 1e-3  # [N] less is no touch, for the root mean square
 
@@ -43,8 +44,7 @@ def impulse(attempt: Attempt) -> float:
 
 def time_over_limit(attempt: Attempt) -> float:
     """Return how long either tip pressed or pulled more than the task allows [s]."""
-    over = (attempt.forces > attempt.force_limit).any(axis=1).astype(np.float64)
-    return float(np.trapezoid(over, attempt.times))
+    return time_above(attempt.times, attempt.forces.max(axis=1), attempt.force_limit)
 
 
 def peak_stress_ratio(attempt: Attempt) -> float:

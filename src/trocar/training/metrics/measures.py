@@ -21,7 +21,7 @@ from trocar.training.metrics.forces import (
     time_over_limit,
     work_on_tissue,
 )
-from trocar.training.metrics.motion import RATE, STRIDE, SmoothPath, strides
+from trocar.training.metrics.motion import RATE, STRIDE, SmoothPath, strides, time_above
 from trocar.training.metrics.smoothness import (
     MOVING,
     integrated_jerk,
@@ -102,7 +102,9 @@ def _least(values: list[float]) -> float:
 def idle_time(attempt: Attempt) -> float:
     """Return how long the tips stood, on average over the instruments used [s]."""
     return _worst(
-        attempt, lambda tip: float((tip.speed <= MOVING).sum()) / RATE, lambda each: float(np.mean(each))
+        attempt,
+        lambda tip: tip.duration - time_above(tip.times, tip.speed, MOVING),
+        lambda each: float(np.mean(each)),
     )
 
 
@@ -119,7 +121,10 @@ def bimanual_dexterity(attempt: Attempt) -> float:
 def both_moving(attempt: Attempt) -> float:
     """Return the share of the time in which both tips move; nan with one instrument."""
     speeds = _both_speeds(attempt)
-    return nan if speeds is None else float((speeds > MOVING).all(axis=0).mean())
+    if speeds is None:
+        return nan
+    times = np.arange(speeds.shape[1]) / RATE
+    return time_above(times, speeds.min(axis=0), MOVING) / float(times[-1])
 
 
 def _both_speeds(attempt: Attempt) -> FloatArray | None:

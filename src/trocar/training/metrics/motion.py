@@ -124,6 +124,20 @@ def smooth_path(times: FloatArray, places: FloatArray) -> SmoothPath:
     )
 
 
+def time_above(times: FloatArray, values: FloatArray, limit: float) -> float:
+    """Return how long values, joined by straight lines, are above a limit [s].
+
+    Args:
+        times: rising [s], shape (n,).
+        values: shape (n,).
+        limit: infinite is never reached.
+    """
+    low, high = np.minimum(values[:-1], values[1:]), np.maximum(values[:-1], values[1:])
+    level = high == low
+    share = np.clip((high - limit) / np.where(level, 1.0, high - low), 0.0, 1.0)
+    return float(np.where(level, low > limit, share) @ np.diff(times))
+
+
 def low_passed(values: FloatArray, rate: float) -> FloatArray:
     """Return values along the first axis through the filter that is part of every metric.
 
