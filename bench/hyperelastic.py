@@ -112,7 +112,7 @@ def newton() -> None:
         orders = [
             log(c / b) / log(b / a)
             for a, b, c in zip(found, found[1:], found[2:], strict=False)
-            if b < 0.1 > c
+            if b < 0.1 and c > 1e-10
         ]
         print(
             f"  {name:12} {' '.join(f'{value:.1e}' for value in found)}; {' '.join(f'{o:.1f}' for o in orders)}"
