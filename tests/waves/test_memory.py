@@ -1,5 +1,7 @@
 """Prony series in the waves: closed forms, one step against two, and poles that only decay."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, seed, settings
@@ -255,6 +257,21 @@ def test_a_series_without_weight_changes_nothing_but_rounding():
     idle = WaveSolid(layers(prony=((0.0, 3.0),)), size=SIZE, modes=(16, 16), dynamic_modes=(8, 8))
     one, other = (m.displacement(m.step(m.init(), load(0.0), load(0.1), 0.05), WHERE) for m in (plain, idle))
     assert (one == other).all()
+
+
+def test_a_year_beside_microseconds_is_split_too():
+    """Retardation of 1 year beside 10 MHz: half of fifteen digits are left, and no pole grows."""
+    series = ((25.0, 0.18), (18.0, 380.0), (390.0, 9e4)), ((370.0, 0.18),)
+    two = layers().layers
+    tissue = Tissue(
+        layers=tuple(replace(a, prony=b, loss_factor=0.0) for a, b in zip(two, series, strict=True))
+    )
+    model = WaveMembrane.derived(tissue, size=SIZE, modes=(16, 16))
+    poles = np.linalg.eigvals(model.oscillators.matrices)
+    assert (poles.real < 0).all()
+    state = model.step(model.static(load(0.1)), load(0.1), load(0.1), 1.0)
+    held = model.displacement(model.static(load(0.1)), WHERE)
+    assert model.displacement(state, WHERE) == pytest.approx(held, abs=1e-7 * np.abs(held).max())
 
 
 def test_clamped_sides_with_a_series_are_refused():

@@ -283,5 +283,5 @@ def _retardation_times(tissue: Tissue, columns: FloatArray, wanted: FloatArray) 
         return np.zeros(columns.shape[1])
     bounds = (fastest / slowest / _SLOWER, _SLOWER)
     found = lsq_linear(columns * slowest, wanted, bounds=bounds, method="bvls", tol=1e-12)
-    fitted: FloatArray = found.x * slowest
+    fitted: FloatArray = np.clip(found.x, *bounds) * slowest  # the solver may leave a bound by a rounding
     return fitted
