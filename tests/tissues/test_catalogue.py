@@ -1,10 +1,15 @@
+from dataclasses import replace
+from importlib.resources import files
 from math import hypot, inf, isfinite, log10, pi, sin, sqrt, tan
+from pathlib import Path
 
 import pytest
 
 import trocar
 from trocar.errors import InputError
 from trocar.tissues import catalogue
+from trocar.tissues.catalogue import tissue
+from trocar.tissues.reading import parse_tissue
 from trocar.tissues.record import Setting, Status, TissueRecord, Usable
 
 NAMES = ("liver", "silicone-pad", "skin", "skin-paper-2014", "stomach-wall", "uterus")
@@ -147,7 +152,9 @@ def test_an_unknown_name_is_refused_with_the_closest(asked: str, close: str) -> 
 
 
 def test_a_name_like_none_is_refused_with_the_list() -> None:
-    with pytest.raises(InputError, match=r"one of liver, .*uterus, got 'zzzz'$"):
+    with pytest.raises(
+        InputError, match=r"one of liver, .*uterus, got 'zzzz'; a tissue file ends with .toml$"
+    ):
         catalogue.record("zzzz")
 
 
@@ -157,3 +164,23 @@ def test_a_record_becomes_plain_values(record: TissueRecord) -> None:
     values = [item for layer in plain["layers"] for item in layer["properties"].values()]
     assert len(values) == sum(record.count(status) for status in Status)
     assert all(isfinite(item["si_value"]) and item["si_unit"] for item in values)
+
+
+def test_a_file_is_taken_wherever_a_preset_is(tmp_path: Path) -> None:
+    text = (files("trocar.tissues") / "presets" / "liver.toml").read_text(encoding="utf-8")
+    path = tmp_path / "mine.toml"
+    path.write_text(text, encoding="utf-8")
+    assert tissue(str(path)) == replace(tissue("liver"), name="mine")
+    path.write_text(text.replace("kg/m3", "kg/m2"), encoding="utf-8")
+    with pytest.raises(InputError, match=r"mine\.toml: layer .*density\.unit"):  # read anew, not remembered
+        tissue(str(path))
+    with pytest.raises(InputError, match=r"there\.toml: expected a tissue file that can be read"):
+        tissue(str(tmp_path / "not" / "there.toml"))
+
+
+def test_the_tissue_of_the_how_to_is_one() -> None:
+    page = (Path(__file__).parents[2] / "docs/how-to/bring-your-own-tissue.md").read_text(encoding="utf-8")
+    text = page.split("```toml\n", 1)[1].split("```", 1)[0]
+    found = parse_tissue(text, file="my-liver.toml", name="my-liver").tissue()
+    assert found.layer_names == ("capsule", "parenchyma")
+    assert found.thickness == pytest.approx(0.0301)

@@ -20,7 +20,9 @@ if TYPE_CHECKING:
     from trocar.study.cost.tick_cost import TickCost
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON alone.")]
-TissueName = Annotated[str, typer.Option("--tissue", help="A preset; see trocar tissues list.")]
+TissueName = Annotated[
+    str, typer.Option("--tissue", help="A preset (trocar tissues list), or a tissue file.toml.")
+]
 _SIZE = (0.06, 0.06)  # [m] the paper's block
 _TOLERANCE = 1e-4  # of what a live tip feels; the trainer's (`simulation.scene.TOLERANCE`)
 _TOLERANCE_RANGE = (1e-8, 0.1)  # below, the modes no longer fit into memory

@@ -32,7 +32,7 @@ def register(app: typer.Typer) -> None:
 def study(
     out: Annotated[Path, typer.Option(help="Folder for the results: new, empty, or an earlier study's.")],
     tissue: Annotated[
-        str | None, typer.Option(help="A tissue preset (trocar tissues list). Default: skin.")
+        str | None, typer.Option(help="A preset (trocar tissues list), or a tissue file.toml. Default: skin.")
     ] = None,
     support: Annotated[
         str | None, typer.Option(help="edges, edges+base or base: how the block is held. Default: base.")

@@ -6,7 +6,6 @@ Nothing imported here is heavy: the presets need neither NumPy nor a model.
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -17,7 +16,6 @@ from rich.table import Table
 
 from trocar.tissues import catalogue
 from trocar.tissues.page import page, section
-from trocar.tissues.reading import read_tissue
 from trocar.tissues.record import LayerRecord, Property, Status, TissueRecord, Usable
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON alone.")]
@@ -54,7 +52,11 @@ def show(
         raise typer.BadParameter("give the name of a preset, the path of a tissue file, or --all")
     if as_json and markdown:
         raise typer.BadParameter("--json and --markdown exclude each other")
-    records = [_find(name)] if name is not None else [catalogue.record(known) for known in catalogue.names()]
+    records = (
+        [catalogue.record(name)]
+        if name is not None
+        else [catalogue.record(known) for known in catalogue.names()]
+    )
     if as_json:
         _print_json([record.as_dict() for record in records] if every else records[0].as_dict())
     elif markdown:
@@ -62,10 +64,6 @@ def show(
     else:
         for record in records:
             _print(*_shown_record(record, full=full))
-
-
-def _find(name: str) -> TissueRecord:
-    return read_tissue(Path(name)) if name.endswith(".toml") else catalogue.record(name)
 
 
 def _print_json(content: object) -> None:

@@ -21,7 +21,9 @@ def register(app: typer.Typer) -> None:
 
 
 def train(
-    tissue: Annotated[str, typer.Option(help="A preset; see trocar tissues list.")] = "skin",
+    tissue: Annotated[
+        str, typer.Option(help="A preset (trocar tissues list), or a tissue file.toml.")
+    ] = "skin",
     ports: Annotated[
         str, typer.Option(help="Where the ports are: usual, oblique, one-sided, or a file.toml.")
     ] = "usual",

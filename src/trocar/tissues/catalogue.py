@@ -1,4 +1,4 @@
-"""The presets that ship with Trocar, by name: tissues, and their records with every source."""
+"""Tissues by name: the presets that ship with Trocar, and files that users write, with every source."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from difflib import get_close_matches
 from functools import cache
 from importlib.resources import files
+from pathlib import Path
 from types import MappingProxyType
 
 from trocar.errors import InputError
@@ -26,25 +27,35 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(name.removesuffix(".toml") for name in found if name.endswith(".toml")))
 
 
-@cache
 def record(name: str) -> TissueRecord:
-    """Return a preset with its provenance.
+    """Return a tissue with its provenance.
+
+    Args:
+        name: of a preset, or the path of a tissue file, which ends with .toml.
 
     Raises:
-        InputError: no preset has this name; the message offers the closest ones.
+        InputError: no preset has this name; the message offers the closest ones. Or the file is not one.
     """
+    return read_tissue(Path(name)) if name.endswith(".toml") else _preset(name)
+
+
+@cache
+def _preset(name: str) -> TissueRecord:
     if name not in names():
         close = get_close_matches(name, names(), n=2, cutoff=0.5)
-        advice = f"did you mean {' or '.join(close)}?" if close else ""
+        advice = f"did you mean {' or '.join(close)}?" if close else "a tissue file ends with .toml"
         raise InputError("tissue", f"one of {', '.join(names())}", name, advice)
     return read_tissue(_PRESETS / f"{name}.toml")
 
 
 def tissue(name: str) -> Tissue:
-    """Return a preset in SI, for any model.
+    """Return a tissue in SI, for any model.
+
+    Args:
+        name: of a preset, or the path of a tissue file, which ends with .toml.
 
     Raises:
-        InputError: no preset has this name, or its values are for the paper's own formula only.
+        InputError: as `record`, or its values are for the paper's own formula only.
     """
     return record(name).tissue()
 

@@ -65,7 +65,7 @@ class Stage:
     def suits(self, task: Task) -> bool:
         """Return whether a task is done in this scene."""
         return (
-            self.tissue.name == task.tissue
+            self.tissue == preset(task.tissue)
             and self.instruments == task.instruments
             and (self.model, self.size) == (LIVE_MODELS[0], LIVE_SIZE)
         )
@@ -155,7 +155,7 @@ def set_stage(
     """Make a stage of names.
 
     Args:
-        tissue: name of a preset.
+        tissue: name of a preset, or the path of a tissue file.
         ports: name of a port set, or a file (`contact.port_sets`).
         model: one of `LIVE_MODELS`.
         size: sides of the block [m].
