@@ -220,9 +220,13 @@ def recompute(table, constants):
     jerks = [
         sqrt(tip.seconds**5 / (2 * tip.length() ** 2) * tip.jerk_squared())
         for tip in tips
-        if tip.length() > 0
+        if tip.length() > 0 and tip.jerk_squared() > 0
     ]
-    logs = [-log(tip.seconds**3 / tip.speed().max() ** 2 * tip.jerk_squared()) for tip in tips]
+    logs = [
+        -log(tip.seconds**3 / tip.speed().max() ** 2 * tip.jerk_squared())
+        for tip in tips
+        if tip.jerk_squared() > 0
+    ]
     arcs = [one for one in (median_arc_length(tip.speed()) for tip in tips) if not isnan(one)]
     strength = constants["tensile_strength_pa"]
     stress = max(one.max() / area for one, area in zip(forces, constants["tip_sections_m2"], strict=True))

@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import sys
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 
@@ -45,7 +46,7 @@ def changes(motion: Attempt, rate: int, noise: float, rng: np.random.Generator) 
     """Return by how much each metric changes, relative to what it was."""
     before, after = measured(motion), measured(recorded(motion, rate, noise, rng))
     return {
-        name: abs(after[name] - value) / max(abs(value), 1e-9)
+        name: abs(after[name] - value) / max(abs(value), 1e-9) if np.isfinite(after[name]) else inf
         for name, value in before.items()
         if name != "work_on_tissue" and np.isfinite(value)
     }

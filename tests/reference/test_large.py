@@ -249,7 +249,7 @@ def pressure(pad: Layer, stretch: float) -> float:
 
 
 def test_it_says_where_and_why_it_stopped() -> None:
-    """Under a dead pull a neo-Hookean pad lets go: its stress grows no faster than its sides draw in."""
+    """Under a dead pull Ogden's law with exponent 1 lets go: stress grows no faster than the sides draw in."""
     pad = Layer(
         name="pad",
         thickness=0.006,

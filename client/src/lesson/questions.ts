@@ -47,7 +47,7 @@ export class Questions {
       [...new FormData(this.form).entries()].filter(([item]) => item !== "group").map(([item, value]) => [item, Number(value)]),
     );
     if (Object.keys(values).length === 0) {
-      this.trouble.textContent = "Answer one question at least, or close.";
+      this.trouble.textContent = "Answer one question at least.";
       return;
     }
     try {

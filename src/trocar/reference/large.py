@@ -7,7 +7,7 @@ reached when that no longer helps is in the error.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from trocar.reference.solver import Factorisation
 from trocar.reference.state import FEAState
 from trocar.tissues import Tissue
 
-_ON_THE_WAY = 1e-4  # the same, of the steps that lead to it
+_ON_THE_WAY = 1e-4  # of the load, the imbalance left in the steps that lead to it
 _FIRST_STEP = (
     0.1  # of the block's thickness, the deflection that the linear answer may have in the first step
 )
@@ -31,8 +31,6 @@ _EASY, _HARD = 5, 9  # iterations below which steps grow, above which they shrin
 _GROWTH = 1.8
 _KEPT_LOADS, _KEPT_SIZES, _KEPT_STEPS = 4, 16, 2
 _SMALLEST_STEP = 1e-3  # of the first: where smaller ones would be needed, no equilibrium is near
-
-Watch = Callable[[float, Balanced], None]
 
 
 class LargeDeformation:
@@ -142,7 +140,6 @@ class LargeDeformation:
         unit: Mapping[Parity, FloatArray],
         size: float,
         known: tuple[float, Mapping[Parity, FloatArray]] = (0.0, {}),
-        watch: Watch = lambda _size, _balanced: None,
     ) -> dict[Parity, FloatArray]:
         """Return the displacement [m] under `size` times a load, by parity.
 
@@ -151,7 +148,6 @@ class LargeDeformation:
             unit: nodal forces of the quarter [N], by parity, of a load whose largest press has 1 N.
             size: of the largest press [N], above 0.
             known: an equilibrium to start from: a smaller size and its displacement; rest by default.
-            watch: told every size reached and its solution.
 
         Raises:
             SolverError: the load was not reached; it says where, why and how far.
@@ -181,7 +177,6 @@ class LargeDeformation:
                         "take less force, a wider tool or a law that stiffens more"
                     ) from error
                 continue
-            watch(aim, found)
             before, reached, unknowns = (reached, unknowns), aim, found.unknowns
             taken = len(found.imbalances) - 1
             step = (aim - before[0]) * (_GROWTH if taken < _EASY else 0.6 if taken > _HARD else 1.0)

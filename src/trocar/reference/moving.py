@@ -6,7 +6,7 @@ With u1 = u0 + D, v1 = 2 D / h - v0 and W what the block stores, the step solves
 
 The integral's work over the step is W(u1) - W(u0) whatever the law: the average vector field method (R. I. McLachlan,
 G. R. W. Quispel and N. Robidoux 1999, Phil. Trans. R. Soc. A 357:1021), second order, its matrix symmetric. It is
-taken with two Gauss points, so what energy is made is of the order of h^5 a step. For a linear law it is Newmark's
+taken with three Gauss points, so what energy is made is of the order of h^7 a step. For a linear law it is Newmark's
 average acceleration, which is the linear model's step. C is the Kelvin-Voigt damping about u0 + h v0 / 2, near the
 middle of the step: D . C D / h is never below 0, so damping only ever takes energy.
 """

@@ -52,11 +52,6 @@ class Memory:
     times: FloatArray
     stiffness: FloatArray
 
-    @property
-    def instantaneous(self) -> FloatArray:
-        """What stiffens a sudden load, the sum of all G_d, shape (J, n, n)."""
-        return np.asarray(self.stiffness.sum(axis=0), dtype=np.float64)
-
 
 @dataclass(frozen=True)
 class _Modal:

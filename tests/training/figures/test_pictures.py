@@ -168,7 +168,7 @@ def test_what_a_step_asks_of_each_hand():
     palpate, bimanual, lift = task("palpate"), task("bimanual-hold"), task("lift")
     assert bands(palpate.steps[0]) == [None, (0.015, 0.065)]
     assert bands(bimanual.steps[1]) == [(0.0075, 0.07), (0.015, 0.065)]
-    assert bands(lift.steps[0]) == [(0.0, 0.07), None]
+    assert bands(lift.steps[0]) == [(0.0, 0.065), None]
     assert bands(lift.steps[1]) == [None, None]
 
 

@@ -40,7 +40,6 @@ def tetrahedra(mesh):
         region=np.repeat(mesh.region, 6),
         held=tuple(Held(faces=cut(one.faces), along=one.along) for one in mesh.held),
         surfaces={name: cut(quads) for name, quads in mesh.surfaces.items()},
-        _outside={},
     )
 
 

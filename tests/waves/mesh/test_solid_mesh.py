@@ -15,8 +15,8 @@ def test_volumes_add_up_and_faces_are_the_outside():
     many = tetrahedra(BLOCK)
     assert volumes_of(many.corners, many.cells).sum() == pytest.approx(0.02 * 0.02 * 0.0062)
     x, y, z = (len(np.unique(column)) - 1 for column in BLOCK.corners.T)
-    assert len(BLOCK.outside) == 2 * (x * y + y * z + z * x)
-    assert len(outer_faces(many.cells)) == 2 * len(BLOCK.outside)
+    assert len(outer_faces(BLOCK.cells)) == 2 * (x * y + y * z + z * x)
+    assert len(outer_faces(many.cells)) == 2 * len(outer_faces(BLOCK.cells))
 
 
 def test_a_mesh_is_placed_like_a_block():
@@ -44,9 +44,11 @@ def inverted(mesh):
         (lambda mesh: {"region": mesh.region + 1}, "a number from 0 to 2"),
         (lambda mesh: {"cells": mesh.cells[:, :5]}, "tetrahedra or hexahedra"),
         (lambda mesh: {"cells": mesh.cells + 1}, "nodes from 0 to"),
+        (lambda mesh: {"cells": mesh.cells - 1}, "got -1"),
+        (lambda mesh: {"surfaces": {"top": mesh.surfaces["fat"][:, :3]}}, "4 corners each"),
         (lambda mesh: {"corners": np.zeros((1_000_000, 3))}, "at most 200000"),
     ],
 )
 def test_what_cannot_be_a_tissue_is_refused(change, said):
     with pytest.raises(InputError, match=said):
-        replace(BLOCK, **change(BLOCK), _outside={})
+        replace(BLOCK, **change(BLOCK))

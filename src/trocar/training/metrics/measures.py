@@ -94,6 +94,11 @@ def _worst(
     return worst(found) if found else nan
 
 
+def _most(values: list[float]) -> float:
+    """Return the largest of the values that exist; nan where none does."""
+    return max((value for value in values if isfinite(value)), default=nan)
+
+
 def _least(values: list[float]) -> float:
     """Return the least of the values that exist; nan where none does."""
     return min((value for value in values if isfinite(value)), default=nan)
@@ -186,7 +191,7 @@ MEASURES = (
         formula="sqrt(T^5/(2 L^2) int |j|^2 dt), the jerk less noise's, L the path length; the larger of both tips",
         source="EndoViS code, with the dt that it leaves out",
         cannot_tell="anything that time did not: they are correlated by 0.93",
-        of=lambda attempt: _worst(attempt, integrated_jerk, max),
+        of=lambda attempt: _worst(attempt, integrated_jerk, _most),
     ),
     Measure(
         name="log_dimensionless_jerk",
@@ -194,7 +199,7 @@ MEASURES = (
         formula="-ln(T^3/v_max^2 int |j|^2 dt), the jerk less noise's; the lesser of both tips",
         source="Balasubramanian et al. 2015, with the jerk instead of the speed's second derivative",
         cannot_tell="anything that integrated jerk did not",
-        of=lambda attempt: _worst(attempt, log_dimensionless_jerk, min),
+        of=lambda attempt: _worst(attempt, log_dimensionless_jerk, _least),
     ),
     Measure(
         name="sparc_per_movement",

@@ -30,9 +30,9 @@ _HIGHEST, _LOUD, _PADDED = 10.0, 0.05, 4  # [Hz], of the peak, powers of two: SP
 
 
 def integrated_jerk(motion: SmoothPath) -> float:
-    """Return S [1]; nan of a motion that goes nowhere."""
-    length = motion.length()
-    return sqrt(motion.duration**5 / (2 * length**2) * motion.jerk()) if length > 0 else nan
+    """Return S [1]; nan of a motion that goes nowhere, or of noise alone."""
+    length, jerk = motion.length(), motion.jerk()
+    return sqrt(motion.duration**5 / (2 * length**2) * jerk) if length > 0 and jerk > 0 else nan
 
 
 def log_dimensionless_jerk(motion: SmoothPath) -> float:

@@ -156,15 +156,14 @@ class Elements:
         for axis, pull in enumerate(pulls):
             if prestressed and pull.any():
                 along = along + _gradients(exact, pull, axis, axis)
-        rows = [
-            [
-                (volume[i, j] if i <= j else volume[j, i].T)
-                + (sheared[i, j].T if i <= j else sheared[j, i])
-                + (along if i == j else 0 * along)
-                for j in range(3)
-            ]
-            for i in range(3)
-        ]
+
+        def block(i: int, j: int) -> sp.csr_array:
+            if i > j:
+                return sp.csr_array(block(j, i).T)
+            found = volume[i, j] + sheared[i, j].T
+            return sp.csr_array(found + along if i == j else found)
+
+        rows = [[block(i, j) for j in range(3)] for i in range(3)]
         return sp.csr_array(sp.block_array(rows, format="csr"))
 
 

@@ -6,7 +6,7 @@ x and y begin at 0 and the highest point has z = 0, as in a block; `placed` move
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -74,7 +74,6 @@ class SolidMesh:
     held: tuple[Held, ...]
     surfaces: Mapping[str, IntArray]
     support: Support = Support.BASE
-    _outside: dict[str, IntArray] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         if self.corners.ndim != 2 or self.corners.shape[1] != 3 or not np.isfinite(self.corners).all():
@@ -100,6 +99,12 @@ class SolidMesh:
             raise InputError(
                 "mesh: held", "faces that do not move", "none", "without a support the tissue floats away"
             )
+        corners = {4: 3, 8: 4}[self.cells.shape[1]]
+        for faces in (*(one.faces for one in self.held), *self.surfaces.values()):
+            if faces.ndim != 2 or faces.shape[1] != corners:
+                raise InputError(
+                    "mesh: faces", f"{corners} corners each, as its elements' faces have", faces.shape
+                )
         if not self.surfaces or not all(len(faces) for faces in self.surfaces.values()):
             raise InputError("mesh: surfaces", "a name with faces at least", sorted(self.surfaces))
 
@@ -108,13 +113,6 @@ class SolidMesh:
         """Extent along x and y [m]."""
         x, y, _ = np.ptp(self.corners, axis=0)
         return float(x), float(y)
-
-    @property
-    def outside(self) -> IntArray:
-        """Corners of the faces that belong to one element alone, shape (k, 3) or (k, 4)."""
-        if not self._outside:
-            self._outside["faces"] = outer_faces(self.cells)
-        return self._outside["faces"]
 
     def _check_size(self) -> None:
         extent = np.ptp(self.corners, axis=0)
@@ -128,7 +126,8 @@ class SolidMesh:
 
     def _check_elements(self) -> None:
         if self.cells.min() < 0 or self.cells.max() >= len(self.corners):
-            raise InputError("mesh: cells", f"nodes from 0 to {len(self.corners) - 1}", int(self.cells.max()))
+            worst = int(self.cells.min() if self.cells.min() < 0 else self.cells.max())
+            raise InputError("mesh: cells", f"nodes from 0 to {len(self.corners) - 1}", worst)
         used = np.zeros(len(self.corners), dtype=bool)
         used[self.cells.ravel()] = True
         if not used.all():
@@ -154,7 +153,7 @@ class SolidMesh:
 def placed(mesh: SolidMesh) -> SolidMesh:
     """Return a mesh moved so that x and y begin at 0 and its highest point has z = 0."""
     low, high = mesh.corners.min(axis=0), mesh.corners.max(axis=0)
-    return replace(mesh, corners=mesh.corners - np.array([low[0], low[1], high[2]]), _outside={})
+    return replace(mesh, corners=mesh.corners - np.array([low[0], low[1], high[2]]))
 
 
 def volumes_of(corners: FloatArray, cells: IntArray) -> FloatArray:

@@ -7,9 +7,10 @@ The basis B holds the lowest modes, K phi = omega^2 M phi, and for each press of
     v1 = K^-1 f,   v2 = K^-1 M v1,   v3 = K^-1 C v1,   and K^-1 M, K^-1 C of v2 and v3,
 
 less what the modes hold of them. The first makes the static answer that of the whole mesh, whatever the number of
-modes, and with the others the answer to slow forces is right to the fourth order of frequency (Krylov vectors: Bai and
-Su 2005, SIAM J. Sci. Comput. 26:1692). What moves is then some seventy amplitudes, coupled by B^T C B where materials
-damp differently; their first-order system is decoupled once (`decouple`), and its step is exact.
+modes, and with the others the answer to slow forces is right to the second order of frequency and nearly so beyond
+(Krylov vectors: Bai and Su 2005, SIAM J. Sci. Comput. 26:1692). What moves is then some seventy amplitudes, coupled by
+B^T C B where materials damp differently; their first-order system is decoupled once (`decouple`); its step
+is exact.
 """
 
 from __future__ import annotations
