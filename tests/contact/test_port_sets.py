@@ -89,9 +89,9 @@ def test_a_mistake_in_a_file_is_refused_with_its_place(tmp_path, change, words):
 def test_no_such_set_or_file(tmp_path):
     with pytest.raises(InputError, match=r"did you mean oblique\?"):
         instruments_through("oblik", SIZE)
-    with pytest.raises(InputError, match="expected a readable file"):
+    with pytest.raises(InputError, match="expected a file that can be read"):
         instruments_through(str(tmp_path / "none.toml"), SIZE)
-    with pytest.raises(InputError, match="expected a readable file"):
+    with pytest.raises(InputError, match="expected a file that can be read"):
         instruments_through(f"{tmp_path}/", SIZE)
 
 

@@ -32,7 +32,7 @@ def test_options_reach_the_device():
         ("simulatd", {}, "did you mean simulated?"),
         ("haptic", {}, "one of simulated, recorded, web"),
         ("web", {"seed": 3}, "web device: seed: expected no such option, got 3; leave it out"),
-        ("recorded", {}, "recorded device: recording: expected a value"),
+        ("recorded", {}, "recorded device: expected the option --recording"),
     ],
 )
 def test_what_is_not_there_is_refused(name, options, said):
