@@ -122,7 +122,7 @@ export class Day {
     on.isOurs = isOurs(row);
     on.whose = `${row.trainee}'s attempt`;
     if (on.isOurs) this.chosen = { trainee: row.trainee, task };
-    this.panel.begin(task, on.isOurs ? on.whose : `${row.trainee} is at it, on another page.`, []);
+    this.panel.begin(task, on.isOurs ? on.whose : `${row.trainee} is at it, on another page.`);
     this.offerEnd(on);
   }
 
@@ -209,7 +209,7 @@ export class Day {
     const begun = { trainee, task: task.name, level: task.level };
     const whose = `${trainee}'s attempt`;
     this.stage.replay.close();
-    this.panel.begin(task, whose, []);
+    this.panel.begin(task, whose);
     this.stage.write(ready(task));
     this.stage.begin();
     this.card.close();
@@ -220,7 +220,7 @@ export class Day {
       remember(begun, row.id);
       if (!this.settled) return; // the connection was lost meanwhile; with the next one it is taken up
       this.on = { number: row.id, isOurs: true, whose };
-      this.panel.begin(task, whose, []);
+      this.panel.begin(task, whose);
       this.offerEnd(this.on);
     } catch (error) {
       forget();

@@ -59,7 +59,7 @@ export class TaskPanel {
   }
 
   /** Show how an attempt goes. @param whose says so. */
-  begin(task: TaskLevel, whose: string, offers: readonly Offer[]): void {
+  begin(task: TaskLevel, whose: string): void {
     this.task = task;
     this.steps = new StepList(task);
     say(this.hint, "Get ready.");
@@ -74,7 +74,7 @@ export class TaskPanel {
       this.steps.element,
       this.offers,
     );
-    this.offer(offers);
+    this.offer([]);
   }
 
   /** Show the newest guidance. */

@@ -98,8 +98,12 @@ def use_write_ahead(path: Path, patience: float) -> None:
             connection.close()
 
 
-def clear_out(engine: Engine) -> None:
-    """Write the file anew without what was deleted, which would stay readable in it, and empty its companion."""
+def clear_out(engine: Engine, path: Path) -> None:
+    """Write the file anew without what was deleted, which would stay readable in it, and empty its companion.
+
+    Raises:
+        RecordsError: another process holds the companion.
+    """
     connection = engine.raw_connection()
     try:
         cursor = connection.cursor()
@@ -107,7 +111,9 @@ def clear_out(engine: Engine) -> None:
         cursor.execute("PRAGMA wal_checkpoint(TRUNCATE)")
         busy, *_ = cursor.fetchone() or (1,)
         if busy:
-            raise sqlite3.OperationalError("what was removed waits in the companion file; close the trainer")
+            raise RecordsError(
+                f"{path}: what was removed can still be read beside it; close the trainer and remove once more"
+            )
     finally:
         connection.close()
 

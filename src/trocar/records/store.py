@@ -246,7 +246,7 @@ class Records:
             RecordsError: another process is at it, or there is no room for a second file; try again later.
         """
         with told(self.path):
-            clear_out(self._engine)
+            clear_out(self._engine, self.path)
 
     def older_copies(self) -> list[Path]:
         """Return the files kept beside this one when it was brought to a newer schema."""

@@ -67,7 +67,7 @@ def decouple(mass: FloatArray, damping: FloatArray, stiffness: FloatArray) -> Bl
             "mass matrix: expected positive definite; check densities and thicknesses"
         ) from error
     inverse = np.linalg.inv(lower)
-    squares, vectors = np.linalg.eigh(_congruent(inverse, stiffness))
+    squares, vectors = np.linalg.eigh(congruent(inverse, stiffness))
     if not (squares > 0).all():
         raise SolverError(
             f"stiffness matrix: expected positive definite, got a squared frequency of {squares.min():.3g}; "
@@ -96,9 +96,14 @@ def decouple(mass: FloatArray, damping: FloatArray, stiffness: FloatArray) -> Bl
     return result
 
 
-def _congruent(inverse: FloatArray, matrix: FloatArray) -> FloatArray:
-    product = inverse @ matrix @ np.swapaxes(inverse, -1, -2)
-    result: FloatArray = 0.5 * (product + np.swapaxes(product, -1, -2))
+def congruent(inverse: FloatArray, matrix: FloatArray) -> FloatArray:
+    """Return inverse matrix inverse^T, symmetric to the last bit; both of shape (..., n, n)."""
+    return symmetric(inverse @ matrix @ np.swapaxes(inverse, -1, -2))
+
+
+def symmetric(matrices: FloatArray) -> FloatArray:
+    """Return the symmetric part of matrices, shape (..., n, n)."""
+    result: FloatArray = 0.5 * (matrices + np.swapaxes(matrices, -1, -2))
     return result
 
 
@@ -152,7 +157,7 @@ def _fill_overdamped(
     scale = 1 / np.sqrt(np.diagonal(stiffness[where], axis1=-2, axis2=-1))  # equilibrated: van der Sluis 1969
     factor = np.linalg.cholesky(scale[..., :, None] * stiffness[where] * scale[..., None, :])
     inverse = np.linalg.inv(factor) * scale[..., None, :]
-    squares, vectors = np.linalg.eigh(_congruent(inverse, mass[where]))
+    squares, vectors = np.linalg.eigh(congruent(inverse, mass[where]))
     slowness = np.sqrt(squares)  # Z
     modes = np.swapaxes(inverse, -1, -2) @ vectors
     from_amplitudes = np.swapaxes(vectors, -1, -2) @ np.swapaxes(factor, -1, -2) / scale[..., None, :]

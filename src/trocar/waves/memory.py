@@ -29,7 +29,7 @@ from scipy.fft import dct
 
 from trocar.errors import SolverError
 from trocar.model import FloatArray
-from trocar.waves.decouple import Blocks, paired, split
+from trocar.waves.decouple import Blocks, congruent, paired, split, symmetric
 
 _RANK = 1e-13  # eigenvalue of G_d relative to the largest: below it is rounding
 _DIAGONAL = 1e-11  # entry off the diagonal relative to the largest on it: below it is rounding of the modes
@@ -142,21 +142,21 @@ def _modes(
             "stiffness matrix: expected positive definite; give some tension, bending or foundation"
         ) from error
     inverse = np.linalg.inv(factor) * scale[..., None, :]
-    squares, vectors = np.linalg.eigh(_congruent(inverse, np.zeros_like(stiffness) if mass is None else mass))
+    squares, vectors = np.linalg.eigh(congruent(inverse, np.zeros_like(stiffness) if mass is None else mass))
     if mass is not None and not (squares > 0).all():
         raise SolverError("mass matrix: expected positive definite; check densities and thicknesses")
     shapes = np.swapaxes(inverse, -1, -2) @ vectors
     turned = np.swapaxes(shapes, -1, -2)
     columns, times = [], []
     for time, part in zip(memory.times, memory.stiffness, strict=True):
-        values, directions = np.linalg.eigh(_symmetric(turned @ part @ shapes))
+        values, directions = np.linalg.eigh(symmetric(turned @ part @ shapes))
         values = np.where(values > _RANK * values[..., -1:], values, 0.0)
         needed = int((values > 0).sum(axis=-1).max(initial=0))
         columns.append((directions * np.sqrt(values)[..., None, :])[..., values.shape[-1] - needed :])
         times.append(np.full(needed, time))
     return _Modal(
         slowness=np.sqrt(np.maximum(squares, 0.0)),
-        damping=np.zeros_like(stiffness) if damping is None else _symmetric(turned @ damping @ shapes),
+        damping=np.zeros_like(stiffness) if damping is None else symmetric(turned @ damping @ shapes),
         branches=np.concatenate(columns, axis=-1),
         times=np.concatenate(times),
         shapes=shapes,
@@ -313,15 +313,6 @@ def _met(
     )
     rates = -np.einsum("jsik,jska,ja->jsia", matrices, relaxed, slowness)
     return matrices, columns[:, :order], np.concatenate([relaxed, rates], axis=-1)
-
-
-def _congruent(inverse: FloatArray, matrix: FloatArray) -> FloatArray:
-    return _symmetric(inverse @ matrix @ np.swapaxes(inverse, -1, -2))
-
-
-def _symmetric(matrix: FloatArray) -> FloatArray:
-    result: FloatArray = 0.5 * (matrix + np.swapaxes(matrix, -1, -2))
-    return result
 
 
 def _diagonal(matrices: FloatArray) -> bool:

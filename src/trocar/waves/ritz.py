@@ -19,6 +19,7 @@ from collections.abc import Callable
 import numpy as np
 
 from trocar.model import FloatArray
+from trocar.waves.decouple import symmetric
 from trocar.waves.memory import Memory
 from trocar.waves.oscillators import Oscillators, joined
 from trocar.waves.thin_layer import ThinLayers, Wavenumbers
@@ -88,8 +89,8 @@ def _reduce(layers: ThinLayers, at: Wavenumbers, order: int, everywhere: bool) -
     basis = _orthonormal(np.concatenate(families[: layers.size // components], axis=2), stiffness)
     transposed = np.swapaxes(basis, 1, 2)
     return Oscillators.of(
-        mass=_symmetric(transposed @ layers.mass @ basis),
-        damping=_symmetric(transposed @ damping @ basis),
+        mass=symmetric(transposed @ layers.mass @ basis),
+        damping=symmetric(transposed @ damping @ basis),
         stiffness=_identity(basis),
         forcing=transposed[:, :, -components:],
         reading=basis if everywhere else basis[:, _face_unknowns(layers)],
@@ -139,7 +140,7 @@ def _pushed(stiffness: FloatArray, components: int) -> FloatArray:
 
 def _memory(layers: ThinLayers, branches: FloatArray, basis: FloatArray) -> Memory:
     reduced = np.swapaxes(basis, 1, 2) @ branches @ basis
-    return Memory(times=layers.relaxation, stiffness=_symmetric(reduced))
+    return Memory(times=layers.relaxation, stiffness=symmetric(reduced))
 
 
 def _face_unknowns(layers: ThinLayers) -> list[int]:
@@ -164,8 +165,3 @@ def _orthonormal(vectors: FloatArray, stiffness: FloatArray) -> FloatArray:
         v = v / np.sqrt(np.einsum("ja,jab,jb->j", v, stiffness, v))[:, None]
         kept.append(v)
     return np.stack(kept, axis=2)
-
-
-def _symmetric(matrices: FloatArray) -> FloatArray:
-    result: FloatArray = 0.5 * (matrices + np.swapaxes(matrices, -1, -2))
-    return result

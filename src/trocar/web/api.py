@@ -227,7 +227,7 @@ def say_errors(app: FastAPI) -> None:
     @app.exception_handler(StarletteHTTPException)
     async def elsewhere(request: Request, error: StarletteHTTPException) -> Response:
         path, said = request.url.path, error.detail != HTTPStatus(error.status_code).phrase
-        if said or not path.startswith("/api/"):
+        if said or error.status_code not in (404, 405) or not path.startswith("/api/"):
             return await http_exception_handler(request, error)
         if allowed := (error.headers or {}).get("Allow"):
             return answer(405, f"{path[:80]}: expected {allowed}, got {request.method}; {_TOLD}")
