@@ -23,6 +23,7 @@ if TYPE_CHECKING:  # the same names for type checkers and editors
     from trocar.waves.mesh.solid_mesh import SolidMesh as SolidMesh
     from trocar.waves.mesh.wave_mesh import WaveMesh as WaveMesh
     from trocar.waves.solid import WaveSolid as WaveSolid
+    from trocar.waves.stretch.stretching_waves import StretchingWaves as StretchingWaves
 
 __version__ = "0.1.0"
 
@@ -31,6 +32,7 @@ _HOME = {  # public name: the module it lives in
     "Layer": "trocar.tissues.layer",
     "Press": "trocar.model",
     "SolidMesh": "trocar.waves.mesh.solid_mesh",
+    "StretchingWaves": "trocar.waves.stretch.stretching_waves",
     "Support": "trocar.model",
     "Tissue": "trocar.tissues.tissue",
     "WaveMembrane": "trocar.waves.membrane",

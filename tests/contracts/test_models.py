@@ -14,6 +14,7 @@ from trocar.waves.membrane import WaveMembrane
 from trocar.waves.mesh.block import block_mesh, lines_around
 from trocar.waves.mesh.wave_mesh import WaveMesh
 from trocar.waves.solid import WaveSolid
+from trocar.waves.stretch.stretching_waves import StretchingWaves
 
 SIZE = (0.06, 0.06)
 
@@ -83,6 +84,56 @@ class TestCreepingWaveMembrane(TissueModelContract):
         return WaveMembrane.fitted(
             remembering(), size=SIZE, support="edges+base", modes=(24, 24), massless=True
         )
+
+
+class StretchingContract(TissueModelContract):
+    # Of four steps of 50 ms two balances differ by 1e-13 each, and beds of a fitted stack are a million times stiffer.
+    rounding = 1e-8
+
+    def test_equilibria_scale_and_add(self, model):
+        """Only small ones do: the sheet resists with the cube of the deflection, here 1e-6 of the load."""
+        small, other = PRESS.with_force(1e-4), OTHER.with_force(1e-4)
+        both = model.displacement(model.static((small.with_force(3e-4), other)), WHERE, "fat")
+        apart = 3 * model.displacement(model.static((small,)), WHERE, "fat")
+        apart += model.displacement(model.static((other,)), WHERE, "fat")
+        self.assert_close(both, apart, 1e-5)
+
+
+class TestStretchingWaveMembrane(StretchingContract):
+    # The sheet bears more than the waves here, and in steps of 50 ms the mean of its resistance at both ends swings
+    # about the equilibrium for long, as average acceleration does.
+    settled = 3e-2
+
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        membrane = WaveMembrane.fitted(three_layers(), size=SIZE, support="edges", modes=(20, 20))
+        return StretchingWaves.of(membrane, three_layers())
+
+
+class TestStretchingWaveSolid(StretchingContract):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        solid = WaveSolid(three_layers(), size=SIZE, modes=(32, 32), dynamic_modes=(12, 12))
+        return StretchingWaves.of(solid, three_layers())
+
+
+class TestRememberingStretchingWaves(StretchingContract):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        return StretchingWaves.of(
+            WaveMembrane.fitted(remembering(), size=SIZE, modes=(16, 16)), remembering()
+        )
+
+
+class TestMasslessStretchingWaves(StretchingContract):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        solid = WaveSolid(three_layers(), size=SIZE, modes=(32, 32), massless=True)
+        return StretchingWaves.of(solid, three_layers())
 
 
 class TestFEASolid(TissueModelContract):

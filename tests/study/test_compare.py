@@ -215,3 +215,39 @@ def test_tissue_squeezed_beyond_its_law_is_reported():
     squeezed = {"pad": Deformation(stretch=(0.21, 2.0), volume_ratio=(0.9, 1.1))}
     (reason,) = departures(case, "fea", fit_error=0.0, modes=None, deformation=squeezed)
     assert "pad is squeezed to 0.21 of its length" in reason
+
+
+def skin_pressed(peak, fat=1e4, support=Support.BASE):
+    skin = Layer(
+        name="skin", thickness=1e-3, young_modulus=4e5, poisson_ratio=0.48, density=1e3, law=NeoHookean()
+    )
+    below = Layer(
+        name="fat", thickness=8e-3, young_modulus=fat, poisson_ratio=0.48, density=1e3, law=NeoHookean()
+    )
+    tool = Tool(diameter=8e-3, position=(0.02, 0.02), peak=peak, rate=peak)
+    return case_from_tissue(
+        tissue=Tissue(layers=(skin, below)), size=(0.04, 0.04), tools=(tool,), support=support, period=0.5
+    )
+
+
+def test_waves_stiffen_where_layers_have_laws_for_large_strain():
+    case = skin_pressed(0.6)
+    linear = replace(case, tissue=case.tissue.linearised)
+    for model in ("wave-solid", "wave-membrane"):
+        hard, straight = compare(case, (model,))[model], compare(linear, (model,))[model]
+        assert hard.large_deformation
+        assert not straight.linear_range.inside
+        assert hard.block.max() < 0.9 * straight.block.max()
+        assert hard.block[1] < 0.6 * hard.block.max()  # half the force at half the time: deeper than half
+        assert hard.in_range == (hard.fit_error < 0.05)  # two sheets are fitted less well than three
+
+
+def test_stiffening_waves_say_where_they_are_not_stated():
+    too_deep = compare(skin_pressed(1.2), ("wave-solid",))["wave-solid"]
+    assert "beyond the third they are stated for" in too_deep.departures[0]
+    assert not too_deep.in_range
+    firm = compare(skin_pressed(0.6, fat=1e5), ("wave-solid",))["wave-solid"]
+    (reason,) = firm.departures
+    assert "4 times stiffer than its bed" in reason
+    clamped = compare(skin_pressed(0.1, support=Support.EDGES), ("wave-solid",))["wave-solid"]
+    assert not clamped.large_deformation  # it stays linear there, and is judged as such

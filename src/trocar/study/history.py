@@ -18,6 +18,7 @@ from trocar.study.linear_range import LinearRange, linear_range
 from trocar.study.models import AnyModel
 from trocar.study.rigid import RigidTips
 from trocar.study.stated_range import departures
+from trocar.waves.stretch.stretching_waves import StretchingWaves
 
 Progress = Callable[[float], None]
 _FORCES = 14  # of one rigid tip that are computed; depth is a smooth power of the force in between
@@ -111,7 +112,10 @@ def run(
             name,
             fit_error=fit_error,
             modes=getattr(model, "modes", None),
-            deformation=model.deformation(furthest or model.static(peaks)) if large else None,
+            deformation=model.deformation(furthest or model.static(peaks))
+            if hasattr(model, "deformation") and large
+            else None,
+            dent=float(np.max(depths)) if isinstance(model, StretchingWaves) else None,
         ),
         linear_range=_range_at_small_strain(case, build, peaks)
         if large

@@ -17,9 +17,12 @@ from trocar.waves.membrane import WaveMembrane
 from trocar.waves.mesh.block import block_mesh, lines_around
 from trocar.waves.mesh.wave_mesh import WaveMesh
 from trocar.waves.solid import WaveSolid
+from trocar.waves.stretch.moduli import stretching_layers
+from trocar.waves.stretch.stretching_waves import StretchingWaves
 
 AnyModel = TissueModel[Any]
 LEAST_MODES, MOST_MODES = 48, 512  # a side; 512 x 512 wavenumbers of three layers fill 100 MiB
+STIFFENING_MODES = (48, 48)  # of `WaveSolid`, that stretch the sheet
 MOST_MEMBRANE_MODES = 128  # membranes answer short waves less than elastic blocks do
 _SHARE_LEFT_OUT = (
     0.004  # by the rule's envelope; of a homogeneous block a quarter of it is missing, of skin far less
@@ -36,7 +39,7 @@ def _wave_membrane(case: Case) -> AnyModel:
     (m, n), most = series_modes(case), MOST_MEMBRANE_MODES
     if not (RADII[0] <= smallest and widest <= RADII[-1]):
         radii = (0.75 * smallest, smallest, widest, 1.5 * widest)
-    return WaveMembrane.fitted(
+    membrane = WaveMembrane.fitted(
         case.tissue,
         size=case.size,
         support=case.support,
@@ -44,16 +47,27 @@ def _wave_membrane(case: Case) -> AnyModel:
         radii=radii,
         massless=not case.sampling.dynamic,
     )
+    return _stiffening(case, membrane)
 
 
 def _wave_solid(case: Case) -> AnyModel:
-    return WaveSolid(
+    solid = WaveSolid(
         case.tissue,
         size=case.size,
         support=case.support,
         modes=series_modes(case),
+        dynamic_modes=STIFFENING_MODES if case.tissue.large_deformation else (32, 32),
         massless=not case.sampling.dynamic,
     )
+    return solid if case.support.sides_clamped else _stiffening(case, solid)
+
+
+def _stiffening(case: Case, linear: WaveMembrane | WaveSolid) -> AnyModel:
+    """Return waves that stiffen where layers have laws for large strain and one of them is a sheet."""
+    sheet = stretching_layers(case.tissue, case.support)
+    if case.rigid or not (case.tissue.large_deformation and sheet):
+        return linear
+    return StretchingWaves.of(linear, case.tissue)
 
 
 def _wave_mesh(case: Case) -> AnyModel:

@@ -23,6 +23,7 @@ from trocar.study.plan import Plan
 from trocar.study.statistics.curves import CurveComparison, compare_curves
 from trocar.study.statistics.uncertainty import Refinement, Validation, refinement, validation
 from trocar.study.surface import Surface, surface
+from trocar.study.validity import DIAMETERS, ValidityMap, validity_map
 from trocar.waves.solid import WaveSolid
 
 REFERENCE = "fea"
@@ -65,6 +66,7 @@ class Study:
         agreement: for "small" and "paper", for each judged model, for each layer and the block.
         numerics: of each layer under the small load.
         strength: of each layer.
+        validity: the wave models' error over force and tool, at large deflection.
         surfaces: pictures of `WaveSolid` by case: "small", "tilted", "pair".
         film: press and release.
         compile_seconds: spent compiling before anything was timed [s].
@@ -82,6 +84,7 @@ class Study:
     agreement: dict[str, dict[str, dict[str, CurveComparison]]]
     numerics: dict[str, Numerics]
     strength: dict[str, Strength]
+    validity: ValidityMap
     surfaces: dict[str, Surface]
     film: Film
     compile_seconds: float
@@ -135,9 +138,18 @@ def run_study(plan: Plan, watch: Watch = lambda _what, _share: None) -> Study:
     tap = compare(plan.tap(), (*JUDGED, REFERENCE), builders=builders)
     watch("refining meshes and modes", 0.65)
     numerics = _numerics(plan)
-    watch("stresses", 0.85)
+    watch("stresses", 0.75)
     strength = _strength(plan)
-    watch("pictures", 0.9)
+    watch("pressing hard", 0.78)
+    validity = validity_map(
+        small.case.tissue,
+        size=small.case.size,
+        support=plan.support,
+        diameters=(plan.diameter,) if plan.quick else DIAMETERS,
+        mesh=COARSE_MESH,
+        progress=lambda share: watch("pressing hard", 0.78 + 0.15 * share),
+    )
+    watch("pictures", 0.93)
     surfaces = {
         name: _surface(case)
         for name, case in (("small", small.case), ("tilted", tilted.case), ("pair", pair.case))
@@ -155,6 +167,7 @@ def run_study(plan: Plan, watch: Watch = lambda _what, _share: None) -> Study:
         agreement={"small": _agreement(small), "paper": _agreement(paper)},
         numerics=numerics,
         strength=strength,
+        validity=validity,
         surfaces=surfaces,
         film=film,
         compile_seconds=compiled,

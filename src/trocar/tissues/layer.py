@@ -42,7 +42,7 @@ class Layer:
         prony: terms (g, tau) of the relaxation modulus: weight relative to the long-term modulus [1], 0 or above,
             and relaxation time [s], each time once; empty where the layer does not remember.
         tensile_strength: stress at which the layer tears [Pa]; infinite where unknown.
-        law: how stress follows from stretch; the wave models take every law as linear.
+        law: how stress follows from stretch; waves take it as linear, or stiffen with the sheet above the lowest layer.
 
     Raises:
         InputError: a value is not finite or not possible.

@@ -57,7 +57,7 @@ class WaveMembrane:
         massless: bool = False,
     ) -> None:
         self.stack = stack
-        self._massless = massless
+        self.massless = massless
         self.fit_error = fit_error
         self._tissue = tissue
         self.size = size
@@ -155,7 +155,7 @@ class WaveMembrane:
         Raises:
             InputError: a layer is unknown, a field is not finite on the block, or the model has no inertia.
         """
-        if self._massless:
+        if self.massless:
             raise InputError("released", "a model with inertia", "a massless one")
         layers = len(self.layer_names)
         start = np.zeros((len(self._mass), 2 * layers))
@@ -207,7 +207,7 @@ class WaveMembrane:
 
     def _sheets(self, state: WaveState) -> FloatArray:
         """Return every sheet's amplitudes [m], shape (M N, layers)."""
-        if not self._massless:
+        if not self.massless:
             return self.oscillators.read(state.oscillators[0])
         inputs = self._inputs(state.load)
         held = np.asarray(np.linalg.solve(self._stiffness, self._forcing * inputs[:, None])[..., 0])

@@ -74,7 +74,7 @@ class WaveSolid:
             )
         self.layer_names = tissue.layer_names
         self._series = Series(size, modes)
-        self._massless = massless
+        self.massless = massless
         self._moving = Series(size, (min(modes[0], dynamic_modes[0]), min(modes[1], dynamic_modes[1])))
         self._clamps = Series(size, (min(modes[0], side_modes[0]), min(modes[1], side_modes[1])))
         self._order = order
@@ -122,7 +122,7 @@ class WaveSolid:
 
     def init(self) -> WaveState:
         """Return the state at rest at time 0."""
-        moving = () if self._massless else (self.oscillators_wv.rest, self.oscillators_s.rest)
+        moving = () if self.massless else (self.oscillators_wv.rest, self.oscillators_s.rest)
         return WaveState(0.0, moving + (self._creep.rest if self._creep is not None else ()))
 
     def static(self, load: Load) -> WaveState:
@@ -155,7 +155,7 @@ class WaveSolid:
 
     @property
     def _families(self) -> tuple[Oscillators, ...]:
-        return () if self._massless else (self.oscillators_wv, self.oscillators_s)
+        return () if self.massless else (self.oscillators_wv, self.oscillators_s)
 
     def _held(self, load: Load) -> tuple[FloatArray, ...]:
         """Return what moves, in equilibrium with a load."""
@@ -330,7 +330,7 @@ class WaveSolid:
             return None
         wanted = np.ones(self._series.shape, dtype=bool)
         wanted[0, 0] = False
-        if not self._massless:
+        if not self.massless:
             wanted[: self._moving.kx.size, : self._moving.ky.size] = False
 
         def made(layers: ThinLayers, which: np.ndarray) -> Oscillators:

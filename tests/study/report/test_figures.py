@@ -20,7 +20,7 @@ from trocar.study.report.figures.style import power_of_ten, three, with_uncertai
 from trocar.study.report.picture import Picture
 
 NAMES = (
-    "exploded-block", "deflection-small-load", "deflection-paper-load", "supports", "angle-and-pair", "tap",
+    "exploded-block", "deflection-small-load", "deflection-paper-load", "validity", "supports", "angle-and-pair", "tap",
     "filmstrip", "normal-distributions", "bland-altman", "error-and-uncertainty", "cost",
 )  # fmt: skip
 SVG = "{http://www.w3.org/2000/svg}"

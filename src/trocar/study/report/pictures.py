@@ -20,6 +20,7 @@ from trocar.study.report.figures.in_time import tap_alt, tap_figure
 from trocar.study.report.figures.normal import normal_alt, normal_figure
 from trocar.study.report.figures.style import label
 from trocar.study.report.figures.supports import supports_alt, supports_figure
+from trocar.study.report.figures.validity import validity_alt, validity_figure
 from trocar.study.report.picture import Picture
 from trocar.units import MILLIMETRE
 
@@ -57,6 +58,14 @@ def pictures(study: Study) -> Mapping[str, Picture]:
             "models that agree "
             "with one another are not thereby right.",
             figure=deflection_figure(paper, depth_limit=True),
+        ),
+        Picture(
+            name="validity",
+            alt=validity_alt(study.validity),
+            caption="Where each wave model may be trusted: the largest error of any layer's deflection "
+            "against hyperelastic finite elements. Each bar ends where the reference did; beside it, the deflection "
+            "there over the block's thickness.",
+            figure=validity_figure(study.validity),
         ),
         Picture(
             name="supports",

@@ -12,6 +12,7 @@ from trocar.study.report.figures.style import label, three
 from trocar.study.report.figures.supports import WORDS
 from trocar.study.report.table import Table, count, percent
 from trocar.study.statistics.agreement import nrmse
+from trocar.study.validity import BOUNDS
 from trocar.units import KILOPASCAL, MILLIMETRE
 
 NOT_ASSESSED = "not assessed"
@@ -115,6 +116,34 @@ def range_table(study: Study, ranges: Ranges | None) -> Table:
         ),
         rows=tuple(rows),
         numeric=(2, 3, 4, 6),
+    )
+
+
+def validity_table(study: Study) -> Table:
+    """Return the force at which each wave model leaves 5 and 10 % under each tool."""
+    rows = []
+    for tool in study.validity.rows:
+        for (model, kind), curve in tool.curves.items():
+            furthest = float(tool.force[-1])
+            limits = (
+                three(limit) if isfinite(limit) else f"above {three(furthest)}" for limit in curve.leaves
+            )
+            largest = percent(float(curve.error[abs(curve.error).argmax()]), signed=True)
+            rows.append((f"{tool.diameter / MILLIMETRE:g}", label(model), kind, *limits, largest))
+    stops = {f"{tool.diameter / MILLIMETRE:g} mm" for tool in study.validity.rows if tool.stopped}
+    return Table(
+        caption="Up to which force each wave model stays within a bound of hyperelastic finite elements.",
+        head=(
+            "tool / mm",
+            "model",
+            "waves",
+            *(f"{100 * bound:g} % left at / N" for bound in BOUNDS),
+            "largest error",
+        ),
+        rows=tuple(rows),
+        numeric=(0, 3, 4, 5),
+        note="Errors of the worst layer, up to a deflection of a third of the block's thickness."
+        + (f" Finite elements went less far under {', '.join(sorted(stops))}." if stops else ""),
     )
 
 

@@ -17,6 +17,7 @@ from trocar.study.protocol import BLOCK, Study
 from trocar.study.report.figures.animation import animation
 from trocar.study.report.page import report_page
 from trocar.study.report.pictures import pictures
+from trocar.study.validity import as_plain
 from trocar.study.writing.dataset import study_dataset
 from trocar.study.writing.folder import fresh_folder
 from trocar.units import MILLIMETRE
@@ -129,6 +130,7 @@ def statistics(study: Study, ranges: Ranges | None = None) -> dict[str, object]:
             }
             for name, comparison in _cases(study)
         },
+        "validity": as_plain(study.validity),
         "compile_s": study.compile_seconds,
         "study_s": study.seconds,
         "machine": dict(study.machine),

@@ -58,7 +58,12 @@ def block_mesh(
 
 
 def lines_around(
-    tissue: Tissue, size: tuple[float, float], around: Load, *, support: Support | str = Support.BASE
+    tissue: Tissue,
+    size: tuple[float, float],
+    around: Load,
+    *,
+    support: Support | str = Support.BASE,
+    coarser: float = 1.0,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return grid lines for `block_mesh` that are close where tools press, at clamped sides and at the layers' faces.
 
@@ -67,6 +72,7 @@ def lines_around(
         size: sides of the block [m].
         around: presses whose footprints are resolved; at least one.
         support: how the block is held.
+        coarser: what every element's length is multiplied by [1].
     """
     radius = min(press.radius for press in around)
     at_side = _AT_SIDE * radius if Support(support).sides_clamped else max(size)
@@ -78,14 +84,14 @@ def lines_around(
                 + _GROWTH * max(abs(place - (press.x, press.y)[axis]) - press.radius, 0.0)
                 for press in around
             ]
-            return min(*near, at_side + _GROWTH * min(place, side - place))
+            return coarser * min(*near, at_side + _GROWTH * min(place, side - place))
 
         return at
 
     z, upper = [np.zeros(1)], 0.0
     for layer in tissue.layers:
         lower = upper - layer.thickness
-        through = _graded(lower, upper, lambda place: _TOP * radius - _DEEPENING * place)
+        through = _graded(lower, upper, lambda place: coarser * (_TOP * radius - _DEEPENING * place))
         z.append(through[::-1][1:])
         upper = lower
     across = [_graded(0.0, side, spacing(side, axis)) for axis, side in enumerate(size)]
