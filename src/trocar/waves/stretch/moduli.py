@@ -29,6 +29,7 @@ FITTED_SHARE = 0.75
 law bears less than small strain says, and so does the bed. Fitted to hyperelastic finite elements under tools of 5, 8
 and 12 mm, sheets 11 and 55 times stiffer than their bed (`bench/stiffening.py fit`)."""
 LEAST_CONTRAST = 10.0  # of a sheet's Young's modulus over its bed's, in the fit and its checks
+MOST_CONTRAST = 110.0  # of fitted membranes: a liver's capsule, 1800 times stiffer than liver, leaves 13 %
 THICKEST = 0.25  # of the block: the thickest sheet they had
 DEEPEST = 1 / 3  # of the block's thickness: how deep they were pressed
 TOOLS = (5e-3, 12e-3)  # diameters under which they were fitted [m]
