@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import inf
 
 from trocar.model import Profile
 from trocar.reference.stress import Deformation
@@ -11,7 +12,15 @@ from trocar.tissues import Fibre
 from trocar.units import MILLIMETRE
 from trocar.waves.clamped import SIDE_MODES
 from trocar.waves.cutoff import modes_for
-from trocar.waves.stretch.moduli import DEEPEST, LEAST_CONTRAST, THICKEST, TOOLS, contrast, stretching_layers
+from trocar.waves.stretch.moduli import (
+    DEEPEST,
+    LEAST_CONTRAST,
+    MOST_CONTRAST,
+    THICKEST,
+    TOOLS,
+    contrast,
+    stretching_layers,
+)
 
 LARGEST_FIT_ERROR = 0.05  # what the study asks of fitted membranes
 LEAST_GAP = 3.0  # from a tool's rim to a clamped side, in the shortest half waves that resolve it: 1 % beyond
@@ -49,7 +58,7 @@ def departures(
                 "is no measurement"
             )
     if dent is not None:
-        found += _beyond_the_sheet(case, dent)
+        found += _beyond_the_sheet(case, model, dent)
     elif model in (*WAVES, "wave-mesh") and any(isinstance(layer.law, Fibre) for layer in case.tissue.layers):
         found.append("it leaves the fibres out, taking every law as linear")
     if model in WAVES and case.support.sides_clamped:
@@ -74,7 +83,7 @@ def departures(
     return tuple(found)
 
 
-def _beyond_the_sheet(case: Case, dent: float) -> list[str]:
+def _beyond_the_sheet(case: Case, model: str, dent: float) -> list[str]:
     """Return why waves that stiffen are not stated for a case: `bench/stiffening.py` shows how far they go."""
     found = []
     tissue, support = case.tissue, case.support
@@ -88,6 +97,10 @@ def _beyond_the_sheet(case: Case, dent: float) -> list[str]:
         found.append(
             f"the sheet is {stiffer:.2g} times stiffer than its bed, and below {LEAST_CONTRAST:g} the bed softens "
             "more than the sheet stiffens"
+        )
+    if model == MEMBRANE and MOST_CONTRAST < stiffer < inf:
+        found.append(
+            f"the sheet is {stiffer:.3g} times stiffer than its bed, and above {MOST_CONTRAST:g} membranes err"
         )
     thickness = sum(layer.thickness for layer in stretching_layers(tissue, support)) / tissue.thickness
     if support.base_held and thickness > THICKEST:
