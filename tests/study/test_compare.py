@@ -252,6 +252,6 @@ def test_stiffening_waves_say_where_they_are_not_stated():
     capsule = departures(
         skin_pressed(0.1, fat=1e3), "wave-membrane", fit_error=0.0, modes=(96, 96), dent=1e-3
     )
-    assert "400 times stiffer than its bed, and above 110" in capsule[0]
+    assert "400 times stiffer than its bed, beyond 110" in capsule[0]
     clamped = compare(skin_pressed(0.1, support=Support.EDGES), ("wave-solid",))["wave-solid"]
     assert not clamped.large_deformation  # it stays linear there, and is judged as such
