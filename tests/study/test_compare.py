@@ -91,7 +91,7 @@ def test_progress_is_told_to_the_end():
     [
         ((), "at least one"),
         (("fem",), "fem"),
-        (("mass-spring",), "not built yet"),
+        (("mesh-free",), "not built yet"),
     ],
 )
 def test_models_that_are_not_there_are_refused(names, word):

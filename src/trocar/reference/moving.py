@@ -14,6 +14,7 @@ middle of the step: D . C D / h is never below 0, so damping only ever takes ene
 from __future__ import annotations
 
 from math import sqrt
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -44,7 +45,7 @@ class Moving:
     """
 
     def __init__(
-        self, part: Part, start: tuple[FloatArray, FloatArray], force: FloatArray, dt: float
+        self, part: Part[Any], start: tuple[FloatArray, FloatArray], force: FloatArray, dt: float
     ) -> None:
         self._part, self._dt = part, dt
         self._displacement, velocity = start
@@ -59,30 +60,40 @@ class Moving:
         total = 2 / self._dt**2 * (self._part.mass @ unknowns) - self._driven
         if self._damping is not None:
             total += self._damping @ unknowns / self._dt
-        for place, weight in _GAUSS:
-            field = self._part.spread(self._displacement + place * unknowns)
+        for (_, weight), field in zip(_GAUSS, self._fields(unknowns), strict=True):
             total += weight * self._part.freed(self._part.internal(field))
         return np.asarray(total)
 
     def tangent(self, unknowns: FloatArray) -> sp.csr_array:
         """Return its derivative [N/m]."""
+        return self._matrix([self._part.deformed.stiffness(field) for field in self._fields(unknowns)])
+
+    def convex(self, unknowns: FloatArray) -> sp.csr_array | None:
+        """Return a positive definite stand-in for it, or None."""
+        parts = [self._part.deformed.convex(field) for field in self._fields(unknowns)]
+        known = [part for part in parts if part is not None]
+        return self._matrix(known) if len(known) == len(parts) else None
+
+    def _fields(self, unknowns: FloatArray) -> list[FloatArray]:
+        return [self._part.spread(self._displacement + place * unknowns) for place, _ in _GAUSS]
+
+    def _matrix(self, parts: list[sp.csr_array]) -> sp.csr_array:
         total = 2 / self._dt**2 * self._part.mass
         if self._damping is not None:
             total = total + self._damping / self._dt
-        for place, weight in _GAUSS:
-            field = self._part.spread(self._displacement + place * unknowns)
-            total = total + weight * place * self._part.deformed.stiffness(field)
+        for (place, weight), part in zip(_GAUSS, parts, strict=True):
+            total = total + weight * place * part
         return sp.csr_array(total)
 
 
-def rest_factors(part: Part, dt: float) -> Factorisation:
+def rest_factors(part: Part[Any], dt: float) -> Factorisation:
     """Factor the matrix of a step at rest: what later ones start from, whichever came before."""
     nothing = np.zeros(len(part.domain.free))
     return Factorisation(Moving(part, (nothing, nothing), nothing, dt).tangent(nothing), part.solver)
 
 
 def advance(
-    part: Part,
+    part: Part[Any],
     start: tuple[FloatArray, FloatArray],
     forces: tuple[FloatArray, FloatArray],
     dt: float,

@@ -44,6 +44,10 @@ class Equations(Protocol):
         """Return their derivative [N/m], symmetric, shape (n, n)."""
         ...
 
+    def convex(self, unknowns: FloatArray) -> sp.csr_array | None:
+        """Return a positive definite stand-in for the derivative, or None where there is none."""
+        ...
+
 
 @dataclass(frozen=True, kw_only=True)
 class Balanced:
@@ -131,10 +135,7 @@ def balance(
             raise NewtonError(
                 f"Newton's method left {imbalances[-1]:.1g} of the load after {MOST_ITERATIONS} iterations"
             )
-        try:
-            direction = directions.solve(equations.tangent(unknowns), -force)
-        except SolverError as error:
-            raise NewtonError("the tangent stiffness is singular") from error
+        direction = _direction(equations, unknowns, force, directions)
         try:
             unknowns, force = _line_search(equations, unknowns, force, direction)
         except NewtonError:
@@ -145,6 +146,25 @@ def balance(
         if 0.5 * imbalances[-2] < imbalances[-1] <= _ROUNDING:
             break
     return Balanced(unknowns=unknowns, imbalances=tuple(imbalances))
+
+
+def _direction(
+    equations: Equations, unknowns: FloatArray, force: FloatArray, directions: Directions
+) -> FloatArray:
+    """Return Newton's direction; where it does not lower the energy, that of the convex stand-in if there is one."""
+    singular: SolverError | None = None
+    try:
+        direction = directions.solve(equations.tangent(unknowns), -force)
+        if direction @ force < 0:
+            return direction
+    except SolverError as error:
+        direction, singular = np.zeros_like(force), error
+    convex = equations.convex(unknowns)
+    if convex is not None:
+        return directions.solve(convex, -force)
+    if singular is not None:
+        raise NewtonError("the tangent stiffness is singular") from singular
+    return direction
 
 
 def _line_search(

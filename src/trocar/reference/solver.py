@@ -18,6 +18,7 @@ from scipy.sparse.linalg import splu
 
 from trocar.errors import InputError, SolverError
 from trocar.model import FloatArray
+from trocar.reference.grid import IntArray
 
 Solve = Callable[[FloatArray], FloatArray]
 
@@ -43,6 +44,11 @@ def choose_solver(name: str) -> str:
                 "solver", "an installed solver", name, "install trocar[pardiso] or use 'superlu'"
             )
     raise InputError("solver", "one of auto, superlu, pardiso", name)
+
+
+def submatrix(matrix: sp.csr_array, unknowns: IntArray) -> sp.csr_array:
+    """Return a matrix's part between some unknowns, in their order."""
+    return sp.csr_array(matrix[unknowns][:, unknowns])
 
 
 class Factorisation:
