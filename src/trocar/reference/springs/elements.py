@@ -83,12 +83,12 @@ class Volumes:
 
     Args:
         corners: nodes, shape (n, 8): x slowest, z fastest.
-        volume: at rest [m3].
+        sides: at rest [m], shape (n, 3).
         energy: stiffness [J].
     """
 
     corners: IntArray
-    volume: FloatArray
+    sides: FloatArray
     energy: FloatArray
 
 
@@ -149,7 +149,9 @@ def springs(boxes: Boxes, lame: FloatArray, shear: FloatArray, tension: FloatArr
     return Springs(
         edges=_joined(Edges, edges),
         scissors=_joined(Scissors, scissors),
-        volumes=Volumes(corners=first[:, None] + steps, volume=volume, energy=lam * volume),
+        volumes=Volumes(
+            corners=first[:, None] + steps, sides=np.ascontiguousarray(sides.T), energy=lam * volume
+        ),
     )
 
 

@@ -32,69 +32,71 @@ _CODE = np.array([9 * x + 3 * y + z for x in (0, 1) for y in (0, 1) for z in (0,
 
 @njit(cache=True)
 def edge_forces(
-    place: FloatArray,
+    rest: FloatArray,
+    moved: FloatArray,
     ends: IntArray,
     length: FloatArray,
     k: FloatArray,
     tension: FloatArray,
     force: FloatArray,
-) -> float:
+) -> float:  # pragma: no cover - compiled
     """Add the forces [N] that hold the edges' lengths, shape (nodes, 3) as the places; return what is stored [J]."""
-    stored = 0.0
+    stored, d = 0.0, np.empty(3)
     for e in range(len(k)):
         a, b = ends[e]
-        d = place[b] - place[a]
-        now = sqrt(d[0] ** 2 + d[1] ** 2 + d[2] ** 2)
-        pull = tension[e] / length[e] + (k[e] * (1.0 - length[e] / now) if now > 0.0 else 0.0)
+        now, squares = _span(rest, moved, a, b, d)
+        longer = squares / (now + length[e])
+        pull = tension[e] / length[e] + (k[e] * longer / now if now > 0.0 else 0.0)
         for i in range(3):
             force[b, i] += pull * d[i]
             force[a, i] -= pull * d[i]
-        stored += 0.5 * k[e] * (now - length[e]) ** 2
-        stored += 0.5 * tension[e] * (now**2 - length[e] ** 2) / length[e]
+        stored += 0.5 * k[e] * longer**2 + 0.5 * tension[e] * squares / length[e]
     return stored
 
 
 @njit(cache=True)
-def scissor_forces(place: FloatArray, corners: IntArray, k: FloatArray, force: FloatArray) -> float:
+def scissor_forces(
+    rest: FloatArray, moved: FloatArray, corners: IntArray, k: FloatArray, force: FloatArray
+) -> float:  # pragma: no cover - compiled
     """Add the forces [N] that hold the diagonals' difference; return what is stored [J]."""
-    stored = 0.0
+    stored, d1, d2 = 0.0, np.empty(3), np.empty(3)
     for e in range(len(k)):
-        n1, l1 = _direction(place[corners[e, 0]], place[corners[e, 2]])
-        n2, l2 = _direction(place[corners[e, 1]], place[corners[e, 3]])
-        pull = k[e] * (l1 - l2)
+        l1, squares1 = _span(rest, moved, corners[e, 0], corners[e, 2], d1)
+        l2, squares2 = _span(rest, moved, corners[e, 1], corners[e, 3], d2)
+        difference = (squares1 - squares2) / (l1 + l2) if l1 + l2 > 0.0 else 0.0
+        first = k[e] * difference / l1 if l1 > 0.0 else 0.0
+        second = k[e] * difference / l2 if l2 > 0.0 else 0.0
         for i in range(3):
-            force[corners[e, 2], i] += pull * n1[i]
-            force[corners[e, 0], i] -= pull * n1[i]
-            force[corners[e, 3], i] -= pull * n2[i]
-            force[corners[e, 1], i] += pull * n2[i]
-        stored += 0.5 * k[e] * (l1 - l2) ** 2
+            force[corners[e, 2], i] += first * d1[i]
+            force[corners[e, 0], i] -= first * d1[i]
+            force[corners[e, 3], i] -= second * d2[i]
+            force[corners[e, 1], i] += second * d2[i]
+        stored += 0.5 * k[e] * difference**2
     return stored
 
 
 @njit(cache=True)
 def volume_forces(
-    place: FloatArray, corners: IntArray, volume: FloatArray, k: FloatArray, force: FloatArray
-) -> tuple[float, int]:
+    moved: FloatArray, corners: IntArray, sides: FloatArray, k: FloatArray, force: FloatArray
+) -> tuple[float, int]:  # pragma: no cover - compiled
     """Add the forces [N] that hold the volumes; return what is stored [J] and the first box inside out, or -1."""
     stored, inside_out = 0.0, -1
+    gradient, slopes = np.empty((8, 3)), np.empty((3, 3))
     for e in range(len(k)):
-        mean = _means(place, corners[e])
-        normal = _normals(mean)
-        ratio = np.dot(mean[0], normal[0]) / volume[e]
-        if ratio <= 0.0 and inside_out < 0:
+        swelling = _swelling(moved, corners[e], sides[e], slopes, gradient)
+        if swelling <= -1.0 and inside_out < 0:
             inside_out = e
-        pressure = k[e] * (ratio - 1.0) / volume[e]
         for a in range(8):
             for i in range(3):
-                for axis in range(3):
-                    force[corners[e, a], i] += pressure * _CORNER[a, axis] * normal[axis, i]
-        stored += 0.5 * k[e] * (ratio - 1.0) ** 2
+                force[corners[e, a], i] += k[e] * swelling * gradient[a, i]
+        stored += 0.5 * k[e] * swelling**2
     return stored, inside_out
 
 
 @njit(cache=True)
 def edge_stiffness(
-    place: FloatArray,
+    rest: FloatArray,
+    moved: FloatArray,
     ends: IntArray,
     code: IntArray,
     length: FloatArray,
@@ -102,18 +104,21 @@ def edge_stiffness(
     tension: FloatArray,
     kind: int,
     blocks: FloatArray,
-) -> None:
+) -> None:  # pragma: no cover - compiled
     """Add the derivative of the forces [N/m] to blocks (nodes, 27, 3, 3): node, neighbour's code, components."""
+    d = np.empty(3)
     for e in range(len(k)):
         a, b = ends[e]
-        n, now = _direction(place[a], place[b])
-        turning = k[e] * (1.0 - length[e] / now) if now > 0.0 and kind != STIFFENING else 0.0
+        now, squares = _span(rest, moved, a, b, d)
+        along = k[e] / now**2 if now > 0.0 else 0.0
+        turning = along * now * squares / (now + length[e]) if kind != STIFFENING else 0.0
         if kind == CONVEX:
             turning = max(turning, 0.0)
+        along -= turning / now**2 if now > 0.0 else 0.0
         even = turning if kind == STIFFENING else turning + tension[e] / length[e]
         for i in range(3):
             for j in range(3):
-                value = (k[e] - turning) * n[i] * n[j] + (even if i == j else 0.0)
+                value = along * d[i] * d[j] + (even if i == j else 0.0)
                 blocks[a, 13, i, j] += value
                 blocks[b, 13, i, j] += value
                 blocks[a, 13 + code[e], i, j] -= value
@@ -122,23 +127,33 @@ def edge_stiffness(
 
 @njit(cache=True)
 def scissor_stiffness(
-    place: FloatArray, corners: IntArray, code: IntArray, k: FloatArray, kind: int, blocks: FloatArray
-) -> None:
+    rest: FloatArray,
+    moved: FloatArray,
+    corners: IntArray,
+    code: IntArray,
+    k: FloatArray,
+    kind: int,
+    blocks: FloatArray,
+) -> None:  # pragma: no cover - compiled
     """As `edge_stiffness`."""
     gradient, turned = np.empty((4, 3)), np.empty((2, 3, 3))
+    d1, d2 = np.empty(3), np.empty(3)
     for e in range(len(k)):
-        n1, l1 = _direction(place[corners[e, 0]], place[corners[e, 2]])
-        n2, l2 = _direction(place[corners[e, 1]], place[corners[e, 3]])
-        pull = k[e] * (l1 - l2) if kind != STIFFENING else 0.0
-        first, second = (pull / l1 if l1 > 0.0 else 0.0), (-pull / l2 if l2 > 0.0 else 0.0)
+        l1, squares1 = _span(rest, moved, corners[e, 0], corners[e, 2], d1)
+        l2, squares2 = _span(rest, moved, corners[e, 1], corners[e, 3], d2)
+        over1, over2 = (1.0 / l1 if l1 > 0.0 else 0.0), (1.0 / l2 if l2 > 0.0 else 0.0)
+        pull = k[e] * (squares1 - squares2) / (l1 + l2) if l1 + l2 > 0.0 and kind != STIFFENING else 0.0
+        first, second = pull * over1, -pull * over2
         if kind == CONVEX:
             first, second = max(first, 0.0), max(second, 0.0)
         for i in range(3):
-            gradient[0, i], gradient[1, i], gradient[2, i], gradient[3, i] = -n1[i], n2[i], n1[i], -n2[i]
+            n1, n2 = d1[i] * over1, d2[i] * over2
+            gradient[0, i], gradient[1, i], gradient[2, i], gradient[3, i] = -n1, n2, n1, -n2
+        for i in range(3):
             for j in range(3):
                 one = 1.0 if i == j else 0.0
-                turned[0, i, j] = first * (one - n1[i] * n1[j])
-                turned[1, i, j] = second * (one - n2[i] * n2[j])
+                turned[0, i, j] = first * (one - gradient[0, i] * gradient[0, j])
+                turned[1, i, j] = second * (one - gradient[1, i] * gradient[1, j])
         for a in range(4):
             for b in range(4):
                 at = 13 + code[e, b] - code[e, a]
@@ -151,66 +166,72 @@ def scissor_stiffness(
 
 @njit(cache=True)
 def volume_stiffness(
-    place: FloatArray, corners: IntArray, volume: FloatArray, k: FloatArray, kind: int, blocks: FloatArray
-) -> None:
+    moved: FloatArray, corners: IntArray, sides: FloatArray, k: FloatArray, kind: int, blocks: FloatArray
+) -> None:  # pragma: no cover - compiled
     """As `edge_stiffness`."""
-    gradient, crossed = np.empty((8, 3)), np.empty((3, 3, 3))
+    gradient, slopes, bent = np.empty((8, 3)), np.empty((3, 3)), np.empty(3)
     for e in range(len(k)):
-        mean = _means(place, corners[e])
-        normal = _normals(mean)
-        gradient[:] = 0.0
-        for a in range(8):
-            for i in range(3):
-                for axis in range(3):
-                    gradient[a, i] += _CORNER[a, axis] * normal[axis, i] / volume[e]
-        pressure = k[e] * (np.dot(mean[0], normal[0]) / volume[e] - 1.0) / volume[e]
-        if kind != EXACT:
-            pressure = 0.0
+        swelling = _swelling(moved, corners[e], sides[e], slopes, gradient)
+        pressure = k[e] * swelling if kind == EXACT else 0.0
         for axis in range(3):
-            v = mean[axis]
-            crossed[axis, 0, 0], crossed[axis, 0, 1], crossed[axis, 0, 2] = 0.0, -v[2], v[1]
-            crossed[axis, 1, 0], crossed[axis, 1, 1], crossed[axis, 1, 2] = v[2], 0.0, -v[0]
-            crossed[axis, 2, 0], crossed[axis, 2, 1], crossed[axis, 2, 2] = -v[1], v[0], 0.0
+            slopes[axis, axis] += 1.0
         for a in range(8):
             for b in range(8):
-                at = 13 + _CODE[b] - _CODE[a]
+                node, at = corners[e, a], 13 + _CODE[b] - _CODE[a]
                 for i in range(3):
                     for j in range(3):
-                        value = k[e] * gradient[a, i] * gradient[b, j]
-                        if pressure != 0.0:
-                            bent = 0.0
-                            for axis in range(3):
-                                one, two = (axis + 1) % 3, (axis + 2) % 3
-                                weight = _CORNER[a, two] * _CORNER[b, one] - _CORNER[a, one] * _CORNER[b, two]
-                                bent += weight * crossed[axis, i, j]
-                            value += pressure * bent
-                        blocks[corners[e, a], at, i, j] += value
+                        blocks[node, at, i, j] += k[e] * gradient[a, i] * gradient[b, j]
+                if pressure == 0.0:
+                    continue
+                bent[:] = 0.0
+                for axis in range(3):
+                    one, two = (axis + 1) % 3, (axis + 2) % 3
+                    weight = _CORNER[a, two] * _CORNER[b, one] - _CORNER[a, one] * _CORNER[b, two]
+                    weight *= pressure / (sides[e, one] * sides[e, two])
+                    for i in range(3):
+                        bent[i] += weight * slopes[axis, i]
+                for i in range(3):
+                    j, m = (i + 1) % 3, (i + 2) % 3
+                    blocks[node, at, m, j] += bent[i]
+                    blocks[node, at, j, m] -= bent[i]
 
 
 @njit(cache=True)
-def _direction(start: FloatArray, end: FloatArray) -> tuple[FloatArray, float]:
-    d = end - start
-    now = sqrt(d[0] ** 2 + d[1] ** 2 + d[2] ** 2)
-    return (d / now if now > 0.0 else d), now
+def _span(
+    rest: FloatArray, moved: FloatArray, a: int, b: int, d: FloatArray
+) -> tuple[float, float]:  # pragma: no cover - compiled
+    """Write the vector from a to b; return its length and by how much its square has grown, free of cancellation."""
+    length, growth = 0.0, 0.0
+    for i in range(3):
+        before, change = rest[b, i] - rest[a, i], moved[b, i] - moved[a, i]
+        d[i] = before + change
+        length += d[i] ** 2
+        growth += change * (2.0 * before + change)
+    return sqrt(length), growth
 
 
 @njit(cache=True)
-def _means(place: FloatArray, corners: IntArray) -> FloatArray:
-    mean = np.zeros((3, 3))
-    for a in range(8):
-        for axis in range(3):
-            for i in range(3):
-                mean[axis, i] += _CORNER[a, axis] * place[corners[a], i]
-    return mean
-
-
-@njit(cache=True)
-def _normals(mean: FloatArray) -> FloatArray:
-    """Return the derivative of p . (q x r) by p, q and r."""
-    normal = np.empty((3, 3))
+def _swelling(
+    moved: FloatArray, corners: IntArray, sides: FloatArray, slopes: FloatArray, gradient: FloatArray
+) -> float:  # pragma: no cover - compiled
+    """Return J - 1, free of cancellation; write F - I, a row for each axis at rest, and dJ by the corners."""
+    g = slopes
     for axis in range(3):
-        one, two = mean[(axis + 1) % 3], mean[(axis + 2) % 3]
         for i in range(3):
-            j, k = (i + 1) % 3, (i + 2) % 3
-            normal[axis, i] = one[j] * two[k] - one[k] * two[j]
-    return normal
+            g[axis, i] = 0.0
+            for a in range(8):
+                g[axis, i] += _CORNER[a, axis] * moved[corners[a], i]
+            g[axis, i] /= sides[axis]
+    gradient[:] = 0.0
+    swelling = 0.0
+    for axis in range(3):
+        one, two = (axis + 1) % 3, (axis + 2) % 3
+        swelling += g[axis, axis] + g[one, one] * g[two, two] - g[one, two] * g[two, one]
+        swelling += g[0, axis] * (g[1, one] * g[2, two] - g[1, two] * g[2, one])
+        for i in range(3):
+            j, m = (i + 1) % 3, (i + 2) % 3
+            first = (g[one, j] + (1.0 if one == j else 0.0)) * (g[two, m] + (1.0 if two == m else 0.0))
+            second = (g[one, m] + (1.0 if one == m else 0.0)) * (g[two, j] + (1.0 if two == j else 0.0))
+            for a in range(8):
+                gradient[a, i] += _CORNER[a, axis] / sides[axis] * (first - second)
+    return swelling

@@ -109,13 +109,15 @@ class DeformedLattice:
         return Pattern(self.boxes, self.free)
 
     def _forces(self, field: FloatArray) -> tuple[FloatArray, float]:
-        place = np.ascontiguousarray((self.boxes.nodes + field).T)
-        force = np.zeros_like(place)
+        rest, moved = np.ascontiguousarray(self.boxes.nodes.T), np.ascontiguousarray(field.T)
+        force = np.zeros_like(rest)
         edges, scissors, volumes = self._springs.edges, self._springs.scissors, self._springs.volumes
-        stored = energies.edge_forces(place, edges.ends, edges.length, edges.stiffness, edges.tension, force)
-        stored += energies.scissor_forces(place, scissors.corners, scissors.stiffness, force)
+        stored = energies.edge_forces(
+            rest, moved, edges.ends, edges.length, edges.stiffness, edges.tension, force
+        )
+        stored += energies.scissor_forces(rest, moved, scissors.corners, scissors.stiffness, force)
         squeezed, inside_out = energies.volume_forces(
-            place, volumes.corners, volumes.volume, volumes.energy, force
+            moved, volumes.corners, volumes.sides, volumes.energy, force
         )
         if inside_out >= 0:
             raise InversionError(inside_out, "it turned inside out")
@@ -161,12 +163,12 @@ def _at_rest(boxes: Boxes, springs: Springs) -> sp.csr_array:
 
 
 def _blocks(boxes: Boxes, springs: Springs, field: FloatArray, kind: int) -> FloatArray:
-    place = np.ascontiguousarray((boxes.nodes + field).T)
-    blocks = np.zeros((len(place), 27, 3, 3))
+    rest, moved = np.ascontiguousarray(boxes.nodes.T), np.ascontiguousarray(field.T)
+    blocks = np.zeros((len(rest), 27, 3, 3))
     edges, scissors, volumes = springs.edges, springs.scissors, springs.volumes
     energies.edge_stiffness(
-        place, edges.ends, edges.code, edges.length, edges.stiffness, edges.tension, kind, blocks
+        rest, moved, edges.ends, edges.code, edges.length, edges.stiffness, edges.tension, kind, blocks
     )
-    energies.scissor_stiffness(place, scissors.corners, scissors.code, scissors.stiffness, kind, blocks)
-    energies.volume_stiffness(place, volumes.corners, volumes.volume, volumes.energy, kind, blocks)
+    energies.scissor_stiffness(rest, moved, scissors.corners, scissors.code, scissors.stiffness, kind, blocks)
+    energies.volume_stiffness(moved, volumes.corners, volumes.sides, volumes.energy, kind, blocks)
     return blocks

@@ -35,8 +35,8 @@ def lattice_size(per_radius: float = PER_RADIUS) -> MeshSize:
         raise InputError("mesh: per_radius", "a finite number above 0", per_radius)
     return MeshSize(
         per_radius=per_radius,
-        growth=1.2 / per_radius,
-        top=1.0 / per_radius,
+        growth=2.0 / per_radius,
+        top=0.5 / per_radius,
         deepening=1.4 / per_radius,
         side=0.6 / per_radius,
     )
