@@ -9,8 +9,8 @@ They do not change when the lattice turns. The term with T is a prestress that s
 the body at rest, as the finite elements have it.
 
 A spring's stiffness is k g g^T, g its gradient, and the force times the curvature of what it measures. The second part
-may be negative: the convex stand-in leaves it out where it is (X. Provot's compressed springs; J. Teran, E. Sifakis,
-G. Irving and R. Fedkiw 2005, Proc. SCA:181, project it; D. Baraff and A. Witkin 1998, Proc. SIGGRAPH:43).
+may be negative: the convex stand-in leaves out what of it is (K.-J. Choi and H.-S. Ko 2002, ACM Trans. Graph. 21:604,
+for edges; J. Teran et al. 2005, Proc. Symp. Computer Animation:181, in general), of volume springs all of it.
 """
 
 from __future__ import annotations
