@@ -2,7 +2,8 @@
 
 Run: python bench/springs.py [flat] [convergence] [poisson] [supports] [tap] [large] [cost]; without a name all of
 them, some ten minutes. `FEASolid` on its default mesh is what they are compared with (within 0.2 %:
-bench/fea_convergence.py); presses are flat, 8 mm wide and in the middle of 60 x 60 mm; skin is 1000/500/10 kPa, Poisson's ratio 0.48.
+bench/fea_convergence.py); presses are flat, 8 mm wide and in the middle of 60 x 60 mm; skin is 1000/500/10 kPa,
+Poisson's ratio 0.48.
 """
 
 from __future__ import annotations
