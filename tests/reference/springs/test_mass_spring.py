@@ -36,8 +36,8 @@ def springs(tissue, per_radius, *, support="base", linearised=True, **given):
     )
 
 
-def elements(tissue, support="base", **given):
-    return FEASolid(tissue, size=SIZE, support=support, around=pressed(1.0), **given)
+def elements(tissue, support="base", mesh=MEDIUM):
+    return FEASolid(tissue, size=SIZE, support=support, around=pressed(1.0), mesh=mesh)
 
 
 def deepest(model, force=1e-3):
@@ -50,7 +50,7 @@ def lawful(tissue):
 
 def test_it_converges_to_the_finite_elements_with_second_order():
     pad, load = Tissue(layers=(PAD,)), pressed(1e-3)
-    expected = deepest(elements(pad))[0]
+    expected = deepest(elements(pad, mesh=MeshSize()))[0]  # within 0.2 %
     errors = []
     for refinement in range(3):
         mesh = replace(lattice_size(1.5), refinement=refinement)
@@ -80,7 +80,7 @@ def test_springs_that_turn_are_linear_under_a_small_load_and_follow_the_finite_e
     turning, still = springs(tissue, 3, linearised=False), springs(tissue, 3)
     assert deepest(turning, 1e-6) == pytest.approx(deepest(still, 1e-6), rel=1e-5)  # as the strain, 1e-6
     large, linear = deepest(turning, 0.6), deepest(still, 0.6)
-    expected = deepest(elements(lawful(tissue), mesh=MEDIUM), 0.6)
+    expected = deepest(elements(lawful(tissue)), 0.6)
     assert large == pytest.approx(
         expected, rel=0.15
     )  # three boxes to a radius miss 10 % of the linear answer
@@ -112,9 +112,9 @@ def tapped(model, force, steps, dt=5e-4):
 
 
 def test_a_tap_is_within_a_tenth_of_the_finite_elements():
-    expected = tapped(elements(three_layers(), mesh=MEDIUM), 1e-3, 60)
+    expected = tapped(elements(three_layers()), 1e-3, 44)
     for linearised in (True, False):
-        found = tapped(springs(three_layers(), 3, linearised=linearised), 1e-3, 60)
+        found = tapped(springs(three_layers(), 3, linearised=linearised), 1e-3, 44)
         assert np.abs(found - expected).max() < 0.1 * np.abs(expected).max()
 
 
@@ -131,11 +131,11 @@ def test_energy_never_grows_once_the_load_is_gone(damped):
     tissue = three_layers()
     if not damped:
         tissue = Tissue(layers=tuple(replace(layer, loss_factor=0.0) for layer in tissue.layers))
-    model = springs(tissue, 1.5, linearised=False)
+    model = springs(tissue, 1.0, linearised=False)
     state = model.static(pressed(0.5))
     assert model.deformation(state)["fat"].stretch[0] < 0.9  # far from small strain
     stored = [energy(model, state)]
-    for _ in range(25):
+    for _ in range(15):
         state = model.step(state, pressed(0.0), pressed(0.0), 2e-3)
         stored.append(energy(model, state))
     # Three Gauss points of the force along the step leave an error of the step's seventh power.
