@@ -8,9 +8,12 @@ import numpy as np
 import pytest
 
 from sample_tissues import three_layers
-from trocar.errors import InputError
+from trocar.errors import InputError, SolverError
 from trocar.model import Press
 from trocar.reference import FEASolid, MeshSize
+from trocar.reference.newton import Directions, NewtonError, balance
+from trocar.reference.part import Static
+from trocar.reference.solver import is_positive_definite
 from trocar.reference.springs.lattice import DeformedLattice
 from trocar.reference.springs.mass_spring import MassSpring, lattice_size
 from trocar.tissues import Layer, NeoHookean, Ogden, Tissue
@@ -159,3 +162,31 @@ def test_what_springs_cannot_follow_is_refused():
     for number in (0.0, -1.0, float("nan")):
         with pytest.raises(InputError, match="per_radius"):
             lattice_size(number)
+
+
+def test_from_far_astray_the_convex_stand_in_leads_home_where_newtons_method_alone_is_stuck(monkeypatch):
+    model = springs(Tissue(layers=(PAD,)), 2, linearised=False)
+    part = model._large.part((False, False))
+    load = part.freed(part.domain.forces(model._forces(pressed(0.05))))
+    home = part.freed(part.domain.field(model.static(pressed(0.05)).displacement))
+    astray = home + 4e-4 * np.random.default_rng(0).normal(size=len(home))  # a fifth of the smaller boxes
+
+    def found():
+        scale = float(np.linalg.norm(load))
+        return balance(
+            Static(part, load), astray, scale=scale, tolerance=1e-10, directions=Directions("superlu")
+        )
+
+    solution = found()
+    assert solution.convex
+    assert solution.unknowns == pytest.approx(home, abs=1e-8 * np.abs(home).max())
+    assert is_positive_definite(Static(part, load).tangent(home), "superlu")
+    assert not is_positive_definite(Static(part, load).tangent(astray), "superlu")
+    monkeypatch.setattr(DeformedLattice, "convex", lambda _self, _field: None)
+    with pytest.raises(NewtonError, match="not stable"):
+        found()
+
+
+def test_an_equilibrium_that_is_not_stable_is_refused():
+    with pytest.raises(SolverError, match=r"reached 0\.[56]\d* of 0.7 N and no more.*not stable"):
+        springs(Tissue(layers=(PAD,)), 2, linearised=False).static(pressed(0.7))
