@@ -14,6 +14,7 @@ if TYPE_CHECKING:  # the same names for type checkers and editors
     from trocar.model import Press as Press
     from trocar.model import Support as Support
     from trocar.reference.fea import FEASolid as FEASolid
+    from trocar.reference.springs.mass_spring import MassSpring as MassSpring
     from trocar.study.cases.reading import load_case as load_case
     from trocar.study.compare import compare as compare
     from trocar.tissues.catalogue import tissue as tissue
@@ -30,6 +31,7 @@ __version__ = "0.1.0"
 _HOME = {  # public name: the module it lives in
     "FEASolid": "trocar.reference.fea",
     "Layer": "trocar.tissues.layer",
+    "MassSpring": "trocar.reference.springs.mass_spring",
     "Press": "trocar.model",
     "SolidMesh": "trocar.waves.mesh.solid_mesh",
     "StretchingWaves": "trocar.waves.stretch.stretching_waves",

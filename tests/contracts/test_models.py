@@ -9,6 +9,7 @@ from sample_tissues import three_layers
 from trocar.model import Press
 from trocar.reference.block import MeshSize
 from trocar.reference.fea import FEASolid
+from trocar.reference.springs.mass_spring import MassSpring, lattice_size
 from trocar.tissues import NeoHookean, Tissue
 from trocar.waves.membrane import WaveMembrane
 from trocar.waves.mesh.block import block_mesh, lines_around
@@ -167,7 +168,52 @@ class TestCreepingFEASolid(TissueModelContract):
         return FEASolid(remembering(), size=SIZE, support="base", around=around, mesh=coarse, massless=True)
 
 
-class TestLargeFEASolid(TissueModelContract):
+class TestLinearisedMassSpring(TissueModelContract):
+    settled = 1e-2  # as of finite elements, with which it shares the step
+
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        around = (Press(x=0.026, y=0.031, radius=0.003, force=1.0),)
+        return MassSpring(
+            three_layers(),
+            size=SIZE,
+            support="base",
+            around=around,
+            mesh=lattice_size(1.5),
+            linearised=True,
+        )
+
+
+class TestCreepingMassSpring(TissueModelContract):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        around = (Press(x=0.026, y=0.031, radius=0.003, force=1.0),)
+        return MassSpring(
+            remembering(),
+            size=SIZE,
+            support="edges+base",
+            around=around,
+            mesh=lattice_size(1.5),
+            linearised=True,
+            massless=True,
+        )
+
+
+class LargeContract(TissueModelContract):
+    """The contract of a model that follows large deformation."""
+
+    def test_equilibria_scale_and_add(self, model):
+        """Only small ones do; the next term is of the order of the strain, here 1e-6."""
+        small, other = PRESS.with_force(1e-5), OTHER.with_force(1e-5)
+        both = model.displacement(model.static((small.with_force(3e-5), other)), WHERE, "fat")
+        apart = 3 * model.displacement(model.static((small,)), WHERE, "fat")
+        apart += model.displacement(model.static((other,)), WHERE, "fat")
+        self.assert_close(both, apart, 1e-4)
+
+
+class TestLargeFEASolid(LargeContract):
     # As of the linear one, and more of what rings lies in the few unknowns of this mesh.
     settled = 3e-2
 
@@ -179,10 +225,12 @@ class TestLargeFEASolid(TissueModelContract):
         around = (Press(x=0.03, y=0.03, radius=0.012, force=1.0),)
         return FEASolid(tissue, size=SIZE, support="base", around=around, mesh=coarse)
 
-    def test_equilibria_scale_and_add(self, model):
-        """Only small ones do; the next term is of the order of the strain, here 1e-6."""
-        small, other = PRESS.with_force(1e-5), OTHER.with_force(1e-5)
-        both = model.displacement(model.static((small.with_force(3e-5), other)), WHERE, "fat")
-        apart = 3 * model.displacement(model.static((small,)), WHERE, "fat")
-        apart += model.displacement(model.static((other,)), WHERE, "fat")
-        self.assert_close(both, apart, 1e-4)
+
+class TestMassSpring(LargeContract):
+    settled = 3e-2  # as of the large finite elements
+
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        around = (Press(x=0.03, y=0.03, radius=0.012, force=1.0),)
+        return MassSpring(three_layers(), size=SIZE, support="base", around=around, mesh=lattice_size(1.5))

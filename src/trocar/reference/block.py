@@ -10,6 +10,7 @@ import numpy as np
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Profile, Support
 from trocar.reference.footprint import half_extent, require_on_block
+from trocar.reference.grid import Grid
 from trocar.reference.mesh import Bricks, Spacing, graded_lines
 from trocar.tissues import Tissue
 
@@ -123,13 +124,13 @@ def _through(tissue: Tissue, smallest: float, mesh: MeshSize) -> tuple[FloatArra
     return np.concatenate(lines)[::-1].copy(), np.array(slab_layer[::-1], dtype=np.int64)
 
 
-def held_by_support(bricks: Bricks, support: Support) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+def held_by_support(grid: Grid, support: Support) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
     """Return which displacement components the support holds at zero, shape (3, nodes)."""
-    held = np.zeros(bricks.nodes.shape, dtype=np.bool_)
+    held = np.zeros(grid.nodes.shape, dtype=np.bool_)
     if support.base_held:
-        held |= bricks.nodes[2] <= bricks.z[0] + 1e-9 * (bricks.z[-1] - bricks.z[0])
-    for axis, lines in ((0, bricks.x), (1, bricks.y)):
-        side = bricks.nodes[axis] <= 1e-12 * lines[-1]
+        held |= grid.nodes[2] <= grid.z[0] + 1e-9 * (grid.z[-1] - grid.z[0])
+    for axis, lines in ((0, grid.x), (1, grid.y)):
+        side = grid.nodes[axis] <= 1e-12 * lines[-1]
         for component in range(3):
             if support.sides_clamped or component != axis:
                 held[component] |= side

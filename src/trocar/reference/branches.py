@@ -1,4 +1,4 @@
-"""Maxwell branches of the finite elements: what a Prony series adds, advanced by a recursion.
+"""Maxwell branches of a mesh: what a Prony series adds, advanced by a recursion.
 
 A branch of weight g and time tau beside the long-term spring carries the stress g D e of a strain-like e that obeys
 e' = strain' - e/tau (Simo and Hughes 1998, Computational Inelasticity, ch. 10). All strains follow from nodal
@@ -21,9 +21,6 @@ import numpy as np
 import scipy.sparse as sp
 
 from trocar.model import FloatArray
-from trocar.reference.assembly import branch
-from trocar.reference.mesh import Bricks
-from trocar.tissues import Tissue
 
 _SHORT = 1e-3  # dt/tau below which kappa is summed as a series: the fraction would cancel
 
@@ -32,15 +29,13 @@ class Branches:
     """The branches of a mesh, one for each relaxation time.
 
     Args:
-        bricks: the mesh.
-        tissue: the layers.
+        times: the relaxation times [s], shape (D,).
+        stiffness: G of each [N/m].
     """
 
-    def __init__(self, bricks: Bricks, tissue: Tissue) -> None:
-        self.times = tissue.relaxation_times
-        self.stiffness: tuple[sp.csr_array, ...] = tuple(
-            branch(bricks, tissue.layers, time) for time in self.times
-        )
+    def __init__(self, times: tuple[float, ...], stiffness: tuple[sp.csr_array, ...]) -> None:
+        self.times = times
+        self.stiffness = stiffness
 
     def at_end(self, dt: float) -> sp.csr_array:
         """Return what the end's displacement is resisted with at the end [N/m]."""

@@ -22,8 +22,9 @@ import scipy.sparse as sp
 from trocar.errors import TrocarError
 from trocar.model import FloatArray
 from trocar.reference.assembly import STABILISATION
+from trocar.reference.grid import IntArray
 from trocar.reference.hyperelastic import COLUMN, ROW, Material, first_piola, nominal_moduli
-from trocar.reference.mesh import EXACT_ORDER, REDUCED_ORDER, Bricks, IntArray, shape_functions
+from trocar.reference.mesh import EXACT_ORDER, REDUCED_ORDER, Bricks, shape_functions
 from trocar.tissues import Layer
 
 _BATCH = 96  # elements at a time: their tangents fill 60 MB
@@ -80,6 +81,9 @@ class DeformedBricks:
         """
         return self._integrate(field, tangent=True)[1]
 
+    def convex(self, field: FloatArray) -> None:
+        """Return None: an equilibrium that is not stable is left to whoever asked."""
+
     def energy(self, field: FloatArray) -> float:
         """Return what the layers and their prestress store [J].
 
@@ -135,10 +139,6 @@ class DeformedBricks:
         )
         volumetric = lame[:, None, None] * np.outer(_UNIT, _UNIT)
         return np.asarray(volumetric + shear[:, None, None] * np.diag(1.0 + _UNIT))
-
-    def submatrix(self, matrix: sp.csr_array) -> sp.csr_array:
-        """Return a matrix's part between the free unknowns."""
-        return sp.csr_array(matrix[self.free][:, self.free])
 
     def _integrate(self, field: FloatArray, *, tangent: bool) -> tuple[FloatArray, sp.csr_array]:
         forces = np.zeros(self.bricks.nodes.shape)

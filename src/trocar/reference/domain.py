@@ -9,22 +9,23 @@ the quarter, so that everything that reads them is the linear model's.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
+from typing import Generic
 
 import numpy as np
 import numpy.typing as npt
 
 from trocar.model import FloatArray, Support
 from trocar.reference.block import held_by_support
-from trocar.reference.mesh import Bricks, IntArray
+from trocar.reference.grid import G, Grid, IntArray
 from trocar.reference.ordering import dissection_order, half_index
 from trocar.reference.parity import Parity, held_on_mirrors, mirror_signs, mirrored_lines
 
 
 @dataclass(frozen=True, eq=False)
-class Domain:
+class Domain(Generic[G]):
     """A part of the block, its mesh the quarter's with mirror images.
 
     Args:
@@ -34,13 +35,13 @@ class Domain:
         support: how the block is held.
     """
 
-    quarter: Bricks
+    quarter: G
     size: tuple[float, float]
     whole: tuple[bool, bool]
     support: Support
 
     @cached_property
-    def bricks(self) -> Bricks:
+    def grid(self) -> G:
         """The mesh; on an axis that is not whole it ends at the mirror plane."""
         quarter = self.quarter
         if not any(self.whole):
@@ -49,7 +50,7 @@ class Domain:
             mirrored_lines(lines, side) if whole else lines
             for lines, side, whole in zip((quarter.x, quarter.y), self.size, self.whole, strict=True)
         )
-        return Bricks(x=x, y=y, z=quarter.z, slab_layer=quarter.slab_layer)
+        return replace(quarter, x=x, y=y)
 
     @property
     def copies(self) -> int:
@@ -74,21 +75,21 @@ class Domain:
     @cached_property
     def free(self) -> IntArray:
         """The unknowns in the order of their elimination, component i of node n being i * nodes + n."""
-        nodes = dissection_order(self.bricks)
+        nodes = dissection_order(self.grid)
         order = (nodes[:, None] + len(nodes) * np.arange(3)).ravel()
         free: IntArray = order[~self.held.ravel()[order]]
         return free
 
     def field(self, parts: Mapping[Parity, FloatArray]) -> FloatArray:
         """Return the displacement [m], shape (3, nodes), that the parts of a state add up to."""
-        result = np.zeros(self.bricks.nodes.shape)
+        result = np.zeros(self.grid.nodes.shape)
         for quarter, nodes in self._twins.items():
             result[:, nodes] = self._quarter_sum(parts, quarter)
         return result
 
     def forces(self, parts: Mapping[Parity, FloatArray]) -> FloatArray:
         """Return the nodal forces [N], shape (3, nodes), of parts as `NodalForces` gives them."""
-        result = np.zeros(self.bricks.nodes.shape)
+        result = np.zeros(self.grid.nodes.shape)
         for quarter, nodes in self._twins.items():
             result[:, nodes] += self._quarter_sum(parts, quarter)  # on a mirror plane both sides add up
         return result
@@ -118,10 +119,10 @@ class Domain:
     @cached_property
     def _twins(self) -> dict[tuple[int, int], IntArray]:
         """The node here that is each quarter node's mirror image, by quarter."""
-        bricks = self.bricks
-        shape = tuple(2 * count + 1 for count in bricks.shape)
+        grid = self.grid
+        shape = tuple(2 * count + 1 for count in grid.shape)
         number = np.full(shape, -1, dtype=np.int64)
-        number[_places(bricks)] = np.arange(bricks.nodes.shape[1])
+        number[_places(grid)] = np.arange(grid.nodes.shape[1])
         x, y, z = _places(self.quarter)
         return {
             (in_x, in_y): number[shape[0] - 1 - x if in_x else x, shape[1] - 1 - y if in_y else y, z]
@@ -129,7 +130,7 @@ class Domain:
         }
 
     def _spread_flags(self, flags: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-        result = np.zeros(self.bricks.nodes.shape, dtype=np.bool_)
+        result = np.zeros(self.grid.nodes.shape, dtype=np.bool_)
         for nodes in self._twins.values():
             result[:, nodes] |= flags
         return result
@@ -141,9 +142,8 @@ def wholes(parities: Iterable[Parity]) -> tuple[bool, bool]:
     return any(parity.x < 0 for parity in kinds), any(parity.y < 0 for parity in kinds)
 
 
-def _places(bricks: Bricks) -> tuple[IntArray, IntArray, IntArray]:
+def _places(grid: Grid) -> tuple[IntArray, IntArray, IntArray]:
     x, y, z = (
-        half_index(lines, nodes)
-        for lines, nodes in zip((bricks.x, bricks.y, bricks.z), bricks.nodes, strict=True)
+        half_index(lines, nodes) for lines, nodes in zip((grid.x, grid.y, grid.z), grid.nodes, strict=True)
     )
     return x, y, z

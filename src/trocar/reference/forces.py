@@ -6,7 +6,7 @@ import numpy as np
 
 from trocar.model import FloatArray, Load, Press
 from trocar.reference.footprint import footprint_points
-from trocar.reference.mesh import Bricks
+from trocar.reference.grid import Grid
 from trocar.reference.parity import PARITIES, QUARTERS, Parity, fold, mirror_signs, mirrored_lines
 
 _NEGLIGIBLE = 1e-12  # of the force: a part below it is rounding in a symmetric load, not a load
@@ -17,12 +17,12 @@ class NodalForces:
     """Turn loads into consistent nodal forces of the quarter; those of unit forces are kept.
 
     Args:
-        bricks: the quarter's mesh.
+        grid: the quarter's mesh.
         size: sides of the block [m].
     """
 
-    def __init__(self, bricks: Bricks, size: tuple[float, float]) -> None:
-        self._bricks = bricks
+    def __init__(self, grid: Grid, size: tuple[float, float]) -> None:
+        self._bricks = grid
         self._size = size
         self._units: dict[Press, dict[Parity, FloatArray]] = {}
 
@@ -47,18 +47,16 @@ class NodalForces:
         return self._units[press]
 
     def _integrate(self, press: Press) -> dict[Parity, FloatArray]:
-        bricks, vector = self._bricks, np.array(press.force_vector)
-        lines = (
-            mirrored_lines(half, side) for half, side in zip((bricks.x, bricks.y), self._size, strict=True)
-        )
+        grid, vector = self._bricks, np.array(press.force_vector)
+        lines = (mirrored_lines(half, side) for half, side in zip((grid.x, grid.y), self._size, strict=True))
         points, share = footprint_points(press, *lines)
         folded, mirrored = fold(points, self._size)
-        nodes, weights = bricks.interpolation(folded, len(bricks.z) - 1)
-        forces = {parity: np.zeros(bricks.nodes.shape) for parity in PARITIES}
+        nodes, weights = grid.interpolation(folded, len(grid.z) - 1)
+        forces = {parity: np.zeros(grid.nodes.shape) for parity in PARITIES}
         for quarter in QUARTERS:
             here = np.all(mirrored == quarter, axis=1)
             carried = (weights * share)[:, here].ravel()
-            spread = np.bincount(nodes[:, here].ravel(), carried, minlength=bricks.nodes.shape[1])
+            spread = np.bincount(nodes[:, here].ravel(), carried, minlength=grid.nodes.shape[1])
             for parity in PARITIES:
                 signs = mirror_signs(parity, np.array([quarter]))[:, 0]
                 forces[parity] += np.outer(0.25 * signs * vector, spread)

@@ -8,18 +8,20 @@ reached when that no longer helps is in the error.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any, Generic
 
 import numpy as np
 
 from trocar.errors import SolverError
 from trocar.model import FloatArray, Load, Support
+from trocar.reference.discretisation import Discretisation
 from trocar.reference.domain import Domain, wholes
-from trocar.reference.mesh import Bricks
+from trocar.reference.grid import G
 from trocar.reference.moving import advance, rest_factors
 from trocar.reference.newton import TOLERANCE, Balanced, Directions, NewtonError, balance
 from trocar.reference.parity import Parity
 from trocar.reference.part import Part, Static
-from trocar.reference.solver import Factorisation
+from trocar.reference.solver import Factorisation, is_positive_definite
 from trocar.reference.state import FEAState
 from trocar.tissues import Tissue
 
@@ -33,23 +35,31 @@ _KEPT_LOADS, _KEPT_SIZES, _KEPT_STEPS = 4, 16, 2
 _SMALLEST_STEP = 1e-3  # of the first: where smaller ones would be needed, no equilibrium is near
 
 
-class LargeDeformation:
-    """A block whose layers have hyperelastic laws.
+class LargeDeformation(Generic[G]):
+    """A block that deforms much.
 
     Args:
         quarter: the quarter's mesh.
         tissue: the layers.
+        discretisation: what makes equations of them.
         size: sides of the block [m].
         support: how it is held.
         solver: "superlu" or "pardiso".
     """
 
     def __init__(
-        self, quarter: Bricks, tissue: Tissue, size: tuple[float, float], support: Support, solver: str
+        self,
+        quarter: G,
+        tissue: Tissue,
+        discretisation: Discretisation[G],
+        size: tuple[float, float],
+        support: Support,
+        solver: str,
     ) -> None:
+        self._discretisation = discretisation
         self._quarter, self._tissue, self._size, self._support = quarter, tissue, size, support
         self._solver = solver
-        self._parts: dict[tuple[bool, bool], Part] = {}
+        self._parts: dict[tuple[bool, bool], Part[G]] = {}
         self._known: dict[Load, dict[float, Mapping[Parity, FloatArray]]] = {}
         self._steps: dict[tuple[tuple[bool, bool], float], Factorisation] = {}
 
@@ -58,11 +68,11 @@ class LargeDeformation:
         """Unknowns of the parts solved so far."""
         return sum(len(part.domain.free) for part in self._parts.values())
 
-    def part(self, whole: tuple[bool, bool]) -> Part:
+    def part(self, whole: tuple[bool, bool]) -> Part[G]:
         """Return the part that is whole along these axes."""
         if whole not in self._parts:
             domain = Domain(self._quarter, self._size, whole, self._support)
-            self._parts[whole] = Part(domain, self._tissue, self._solver)
+            self._parts[whole] = Part(domain, self._tissue, self._discretisation, self._solver)
         return self._parts[whole]
 
     def static(
@@ -168,6 +178,10 @@ class LargeDeformation:
             tolerance = TOLERANCE if aim == size else _ON_THE_WAY
             try:
                 found = _from_either(part, aim * force, guess, unknowns, aim * norm, tolerance, directions)
+                if (found.convex or aim == size) and not is_positive_definite(
+                    Static(part, force).tangent(found.unknowns), part.solver
+                ):
+                    raise NewtonError("the equilibrium is not stable")
             except NewtonError as error:
                 cuts, step, before = cuts + 1, 0.5 * (aim - reached), None
                 if step < smallest:
@@ -183,7 +197,12 @@ class LargeDeformation:
         return part.domain.parts(part.spread(unknowns))
 
     def _first_step(
-        self, part: Part, unknowns: FloatArray, force: FloatArray, directions: Directions, distance: float
+        self,
+        part: Part[Any],
+        unknowns: FloatArray,
+        force: FloatArray,
+        directions: Directions,
+        distance: float,
     ) -> float:
         """Return the force [N] for which the linear answer, from here on, is a tenth of the thickness."""
         slope = directions.solve(Static(part, force).tangent(unknowns), force)
@@ -193,7 +212,7 @@ class LargeDeformation:
 
 
 def _from_either(
-    part: Part,
+    part: Part[Any],
     force: FloatArray,
     guess: FloatArray,
     last: FloatArray,

@@ -16,12 +16,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 from skfem import Basis, ElementHexS2, MeshHex
 
 from trocar.model import FloatArray
+from trocar.reference.grid import Grid, IntArray, locate
 
-IntArray = npt.NDArray[np.int64]
 Spacing = Callable[[FloatArray], FloatArray]
 
 REDUCED_ORDER = 3  # polynomial order of the 2 x 2 x 2 Gauss rule
@@ -54,26 +53,8 @@ def graded_lines(start: float, stop: float, spacing: Spacing, refinement: int = 
 
 
 @dataclass(frozen=True, eq=False)
-class Bricks:
-    """20-node bricks between grid lines.
-
-    Elements are numbered with z fastest, then y, then x. The 3 components of a node's vector are stored as
-    the 3 rows of an array of shape (3, nodes); flattened, component i of node n is unknown i * nodes + n.
-
-    Args:
-        x, y, z: grid lines [m], ascending.
-        slab_layer: the layer of each slab between two z lines, shape (len(z) - 1,).
-    """
-
-    x: FloatArray
-    y: FloatArray
-    z: FloatArray
-    slab_layer: IntArray
-
-    @property
-    def shape(self) -> tuple[int, int, int]:
-        """Number of elements along x, y and z."""
-        return len(self.x) - 1, len(self.y) - 1, len(self.z) - 1
+class Bricks(Grid):
+    """20-node bricks between grid lines."""
 
     @cached_property
     def basis(self) -> Basis:
@@ -99,40 +80,16 @@ class Bricks:
         """Nodes of each element, shape (20, elements), in the order of the shape functions."""
         return np.asarray(self.basis.element_dofs, dtype=np.int64)
 
-    @cached_property
-    def edges(self) -> FloatArray:
-        """Edge lengths of each element [m], shape (3, elements)."""
-        lengths = np.meshgrid(np.diff(self.x), np.diff(self.y), np.diff(self.z), indexing="ij")
-        return np.stack(lengths).reshape(3, -1)
-
-    @cached_property
-    def element_layer(self) -> IntArray:
-        """The layer of each element, shape (elements,)."""
-        nx, ny, _ = self.shape
-        return np.tile(self.slab_layer, nx * ny)
-
     def gauss_rule(self, order: int) -> tuple[FloatArray, FloatArray]:
         """Return the local points, shape (3, q), and weights, shape (q,), of a rule exact up to `order`."""
         rule = Basis(self.basis.mesh, self.basis.elem, intorder=order, elements=np.array([0]))
         return np.asarray(rule.X, dtype=np.float64), np.asarray(rule.W, dtype=np.float64)
 
-    def upper_face(self, layer: int) -> int:
-        """Return the number of the z line that is a layer's upper face."""
-        return int(np.flatnonzero(self.slab_layer == layer)[-1]) + 1
-
     def interpolation(self, points: FloatArray, line: int) -> tuple[IntArray, FloatArray]:
-        """Return the nodes around points on a z line, and their shape functions there.
-
-        Args:
-            points: places within the mesh [m], shape (n, 2).
-            line: number of the z line, above the lowest.
-
-        Returns:
-            Nodes and weights, both of shape (20, n); a field's value is sum(field[nodes] * weights).
-        """
+        """As the grid's; 20 nodes around each point."""
         _, ny, nz = self.shape
-        ix, fx = _locate(self.x, points[:, 0])
-        iy, fy = _locate(self.y, points[:, 1])
+        ix, fx = locate(self.x, points[:, 0])
+        iy, fy = locate(self.y, points[:, 1])
         local = np.stack([fx, fy, np.ones_like(fx)])
         return self.element_nodes[:, (ix * ny + iy) * nz + line - 1], shape_functions(local)[0]
 
@@ -146,8 +103,3 @@ def shape_functions(local: FloatArray) -> tuple[FloatArray, FloatArray]:
     element = ElementHexS2()
     values, gradients = zip(*(element.lbasis(local, i) for i in range(20)), strict=True)
     return np.stack(values), np.stack(gradients)
-
-
-def _locate(lines: FloatArray, places: FloatArray) -> tuple[IntArray, FloatArray]:
-    interval = np.clip(np.searchsorted(lines, places, side="right") - 1, 0, len(lines) - 2)
-    return interval, (places - lines[interval]) / (lines[interval + 1] - lines[interval])

@@ -14,6 +14,7 @@ middle of the step: D . C D / h is never below 0, so damping only ever takes ene
 from __future__ import annotations
 
 from math import sqrt
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -30,6 +31,7 @@ _GAUSS = (
     (0.5, 8 / 18),
     (0.5 + 0.5 * sqrt(0.6), 5 / 18),
 )  # places and weights
+_LEANING = 2 / 3  # where one stiffness K stands for 2 times the mean of x K: exact for K linear in x
 _MOST_HALVINGS = 8
 
 
@@ -44,7 +46,7 @@ class Moving:
     """
 
     def __init__(
-        self, part: Part, start: tuple[FloatArray, FloatArray], force: FloatArray, dt: float
+        self, part: Part[Any], start: tuple[FloatArray, FloatArray], force: FloatArray, dt: float
     ) -> None:
         self._part, self._dt = part, dt
         self._displacement, velocity = start
@@ -59,30 +61,40 @@ class Moving:
         total = 2 / self._dt**2 * (self._part.mass @ unknowns) - self._driven
         if self._damping is not None:
             total += self._damping @ unknowns / self._dt
-        for place, weight in _GAUSS:
-            field = self._part.spread(self._displacement + place * unknowns)
+        for (_, weight), field in zip(_GAUSS, self._fields(unknowns), strict=True):
             total += weight * self._part.freed(self._part.internal(field))
         return np.asarray(total)
 
     def tangent(self, unknowns: FloatArray) -> sp.csr_array:
-        """Return its derivative [N/m]."""
-        total = 2 / self._dt**2 * self._part.mass
+        """Return its derivative [N/m], the mean of x K over the step from one point: Newton's method forgives that."""
+        return self._matrix(self._part.deformed.stiffness(self._leant(unknowns)))
+
+    def convex(self, unknowns: FloatArray) -> sp.csr_array | None:
+        """Return a positive definite stand-in for it, or None."""
+        stand_in = self._part.deformed.convex(self._leant(unknowns))
+        return None if stand_in is None else self._matrix(stand_in)
+
+    def _leant(self, unknowns: FloatArray) -> FloatArray:
+        return self._part.spread(self._displacement + _LEANING * unknowns)
+
+    def _fields(self, unknowns: FloatArray) -> list[FloatArray]:
+        return [self._part.spread(self._displacement + place * unknowns) for place, _ in _GAUSS]
+
+    def _matrix(self, stiffness: sp.csr_array) -> sp.csr_array:
+        total = 2 / self._dt**2 * self._part.mass + 0.5 * stiffness
         if self._damping is not None:
             total = total + self._damping / self._dt
-        for place, weight in _GAUSS:
-            field = self._part.spread(self._displacement + place * unknowns)
-            total = total + weight * place * self._part.deformed.stiffness(field)
         return sp.csr_array(total)
 
 
-def rest_factors(part: Part, dt: float) -> Factorisation:
+def rest_factors(part: Part[Any], dt: float) -> Factorisation:
     """Factor the matrix of a step at rest: what later ones start from, whichever came before."""
     nothing = np.zeros(len(part.domain.free))
     return Factorisation(Moving(part, (nothing, nothing), nothing, dt).tangent(nothing), part.solver)
 
 
 def advance(
-    part: Part,
+    part: Part[Any],
     start: tuple[FloatArray, FloatArray],
     forces: tuple[FloatArray, FloatArray],
     dt: float,

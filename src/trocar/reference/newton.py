@@ -44,6 +44,10 @@ class Equations(Protocol):
         """Return their derivative [N/m], symmetric, shape (n, n)."""
         ...
 
+    def convex(self, unknowns: FloatArray) -> sp.csr_array | None:
+        """Return a positive definite stand-in for the derivative, or None where there is none."""
+        ...
+
 
 @dataclass(frozen=True, kw_only=True)
 class Balanced:
@@ -52,10 +56,12 @@ class Balanced:
     Args:
         unknowns: shape (n,).
         imbalances: norm over the scale at the start and after each iteration [1].
+        convex: whether a convex stand-in was needed: it also leads to equilibria that are not stable.
     """
 
     unknowns: FloatArray
     imbalances: tuple[float, ...]
+    convex: bool
 
 
 class NewtonError(TrocarError):
@@ -120,7 +126,7 @@ def balance(
     Raises:
         NewtonError: there are none, or they were not found.
     """
-    unknowns = start
+    unknowns, convex = start, False
     try:
         force = equations.imbalance(unknowns)
     except InversionError as error:
@@ -131,10 +137,8 @@ def balance(
             raise NewtonError(
                 f"Newton's method left {imbalances[-1]:.1g} of the load after {MOST_ITERATIONS} iterations"
             )
-        try:
-            direction = directions.solve(equations.tangent(unknowns), -force)
-        except SolverError as error:
-            raise NewtonError("the tangent stiffness is singular") from error
+        direction, stood_in = _direction(equations, unknowns, force, directions)
+        convex |= stood_in
         try:
             unknowns, force = _line_search(equations, unknowns, force, direction)
         except NewtonError:
@@ -144,7 +148,26 @@ def balance(
         imbalances.append(float(np.linalg.norm(force)) / scale)
         if 0.5 * imbalances[-2] < imbalances[-1] <= _ROUNDING:
             break
-    return Balanced(unknowns=unknowns, imbalances=tuple(imbalances))
+    return Balanced(unknowns=unknowns, imbalances=tuple(imbalances), convex=convex)
+
+
+def _direction(
+    equations: Equations, unknowns: FloatArray, force: FloatArray, directions: Directions
+) -> tuple[FloatArray, bool]:
+    """Return Newton's direction, or where it does not lower the energy that of the convex stand-in; and which it is."""
+    singular: SolverError | None = None
+    try:
+        direction = directions.solve(equations.tangent(unknowns), -force)
+        if direction @ force < 0:
+            return direction, False
+    except SolverError as error:
+        direction, singular = np.zeros_like(force), error
+    stand_in = equations.convex(unknowns)
+    if stand_in is not None:
+        return directions.solve(stand_in, -force), True
+    if singular is not None:
+        raise NewtonError("the tangent stiffness is singular") from singular
+    return direction, False
 
 
 def _line_search(

@@ -9,18 +9,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from trocar.reference.mesh import Bricks, IntArray
+from trocar.reference.grid import Grid, IntArray
 
 _LEAF = 2  # elements along every direction of a block that is no longer cut
 
 
-def dissection_order(bricks: Bricks) -> IntArray:
+def dissection_order(grid: Grid) -> IntArray:
     """Return the nodes in the order of their elimination, shape (nodes,)."""
     place = np.stack(
-        [
-            half_index(lines, nodes)
-            for lines, nodes in zip((bricks.x, bricks.y, bricks.z), bricks.nodes, strict=True)
-        ]
+        [half_index(lines, nodes) for lines, nodes in zip((grid.x, grid.y, grid.z), grid.nodes, strict=True)]
     )
     order: list[IntArray] = []
 
@@ -36,7 +33,7 @@ def dissection_order(bricks: Bricks) -> IntArray:
         cut(nodes[side > 0], (*low[:axis], middle, *low[axis + 1 :]), high)
         order.append(nodes[side == 0])
 
-    cut(np.arange(bricks.nodes.shape[1]), (0, 0, 0), bricks.shape)
+    cut(np.arange(grid.nodes.shape[1]), (0, 0, 0), grid.shape)
     return np.concatenate(order)
 
 

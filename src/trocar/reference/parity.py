@@ -19,7 +19,7 @@ import numpy as np
 
 from trocar.errors import InputError
 from trocar.model import FloatArray
-from trocar.reference.mesh import Bricks, IntArray
+from trocar.reference.grid import Grid, IntArray
 
 
 class Parity(NamedTuple):
@@ -81,11 +81,11 @@ def mirror_signs(parity: Parity, mirrored: IntArray) -> FloatArray:
     return np.asarray(part * flips, dtype=np.float64)
 
 
-def held_on_mirrors(bricks: Bricks, parity: Parity) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+def held_on_mirrors(grid: Grid, parity: Parity) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
     """Return which components of a part vanish on the mirror planes, shape (3, nodes)."""
-    held = np.zeros(bricks.nodes.shape, dtype=np.bool_)
-    for axis, lines, sign in ((0, bricks.x, parity.x), (1, bricks.y, parity.y)):
-        plane = bricks.nodes[axis] >= lines[-1] * (1 - 1e-12)
+    held = np.zeros(grid.nodes.shape, dtype=np.bool_)
+    for axis, lines, sign in ((0, grid.x, parity.x), (1, grid.y, parity.y)):
+        plane = grid.nodes[axis] >= lines[-1] * (1 - 1e-12)
         for component in range(3):
             if (component == axis) == (sign == 1):
                 held[component] |= plane

@@ -4,53 +4,56 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, Generic
 
 import numpy as np
 import scipy.sparse as sp
 
 from trocar.model import FloatArray
-from trocar.reference.assembly import mass
-from trocar.reference.deformed import DeformedBricks
+from trocar.reference.discretisation import Deformed, Discretisation
 from trocar.reference.domain import Domain
+from trocar.reference.grid import G
 from trocar.reference.newton import NewtonError
-from trocar.reference.solver import Factorisation
+from trocar.reference.solver import Factorisation, submatrix
 from trocar.tissues import Tissue
 from trocar.units import MILLIMETRE
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class Part(Generic[G]):
     """The part of the block that is solved, with its equations.
 
     Args:
         domain: which part.
         tissue: the layers.
+        discretisation: what makes equations of it.
         solver: "superlu" or "pardiso".
     """
 
-    domain: Domain
+    domain: Domain[G]
     tissue: Tissue
+    discretisation: Discretisation[G]
     solver: str
 
     @cached_property
-    def deformed(self) -> DeformedBricks:
+    def deformed(self) -> Deformed:
         """Forces and tangents."""
-        return DeformedBricks(self.domain.bricks, self.tissue.layers, self.domain.free)
+        return self.discretisation.deformed(self.domain.grid, self.tissue.layers, self.domain.free)
 
     @cached_property
     def at_rest(self) -> FloatArray:
         """The nodal forces that hold the prestress [N], shape (3, nodes)."""
-        return self.deformed.forces(np.zeros(self.domain.bricks.nodes.shape))
+        return self.deformed.forces(np.zeros(self.domain.grid.nodes.shape))
 
     @cached_property
     def mass(self) -> sp.csr_array:
         """M [kg] between the free unknowns."""
-        return self.deformed.submatrix(mass(self.domain.bricks, self.tissue.layers))
+        return submatrix(self.discretisation.mass(self.domain.grid, self.tissue.layers), self.domain.free)
 
     @cached_property
     def rest_factors(self) -> Factorisation:
         """Of the tangent at rest: what every load starts from, whichever came before."""
-        return Factorisation(self.deformed.stiffness(np.zeros(self.domain.bricks.nodes.shape)), self.solver)
+        return Factorisation(self.deformed.stiffness(np.zeros(self.domain.grid.nodes.shape)), self.solver)
 
     def damping_about(self, unknowns: FloatArray) -> sp.csr_array | None:
         """Return C [N s/m] about free unknowns [m]; None where no layer is damped."""
@@ -74,9 +77,9 @@ class Part:
 
     def where(self, element: int) -> str:
         """Say where an element is: layer and centre."""
-        bricks = self.domain.bricks
-        x, y, z = bricks.nodes[:, bricks.element_nodes[:, element]].mean(axis=1) / MILLIMETRE
-        name = self.tissue.layer_names[int(bricks.element_layer[element])]
+        grid = self.domain.grid
+        x, y, z = grid.centres[:, element] / MILLIMETRE
+        name = self.tissue.layer_names[int(grid.element_layer[element])]
         return f"layer {name!r}, element centred at ({x:.3g}, {y:.3g}, {z:.3g}) mm"
 
     def most_squeezed(self, field: FloatArray) -> int:
@@ -99,7 +102,7 @@ class Static:
         force: nodal forces [N], shape (n,), of the free unknowns.
     """
 
-    def __init__(self, part: Part, force: FloatArray) -> None:
+    def __init__(self, part: Part[Any], force: FloatArray) -> None:
         self._part = part
         self._force = force
 
@@ -110,3 +113,7 @@ class Static:
     def tangent(self, unknowns: FloatArray) -> sp.csr_array:
         """Return the tangent stiffness [N/m]."""
         return self._part.deformed.stiffness(self._part.spread(unknowns))
+
+    def convex(self, unknowns: FloatArray) -> sp.csr_array | None:
+        """Return a positive definite stand-in for it, or None."""
+        return self._part.deformed.convex(self._part.spread(unknowns))

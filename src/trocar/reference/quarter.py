@@ -3,37 +3,47 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Generic
 
 import numpy as np
 import scipy.sparse as sp
 
 from trocar.model import FloatArray, Support
-from trocar.reference.assembly import damping, mass, stiffness
 from trocar.reference.block import held_by_support
 from trocar.reference.branches import Branches
-from trocar.reference.mesh import Bricks, IntArray
+from trocar.reference.discretisation import Discretisation
+from trocar.reference.grid import G, IntArray
 from trocar.reference.ordering import dissection_order
 from trocar.reference.parity import Parity, held_on_mirrors
-from trocar.reference.solver import Factorisation
+from trocar.reference.solver import Factorisation, submatrix
 from trocar.tissues import Tissue
 
 
-class QuarterSystem:
+class QuarterSystem(Generic[G]):
     """M u'' + C u' + K u + sum of G y = f on the quarter of a block; y are the branches' (see `branches`).
 
     Args:
-        bricks: the quarter's mesh.
+        grid: the quarter's mesh.
         tissue: the layers.
+        discretisation: what makes equations of them.
         support: how the block is held.
         solver: "superlu" or "pardiso".
     """
 
-    def __init__(self, bricks: Bricks, tissue: Tissue, support: Support, solver: str) -> None:
-        self.bricks = bricks
+    def __init__(
+        self,
+        grid: G,
+        tissue: Tissue,
+        discretisation: Discretisation[G],
+        support: Support,
+        solver: str,
+    ) -> None:
+        self.grid = grid
+        self._discretisation = discretisation
         self._tissue = tissue
         self._layers = tissue.layers
         self._solver = solver
-        self.held = held_by_support(bricks, support)
+        self.held = held_by_support(grid, support)
         self._free: dict[Parity, IntArray] = {}
         self._static: dict[Parity, Factorisation] = {}
         self._dynamic: dict[tuple[Parity, float], Factorisation] = {}
@@ -42,32 +52,33 @@ class QuarterSystem:
     @cached_property
     def stiffness(self) -> sp.csr_array:
         """K [N/m], prestress included."""
-        return stiffness(self.bricks, self._layers)
+        return self._discretisation.stiffness(self.grid, self._layers)
 
     @cached_property
     def damping(self) -> sp.csr_array:
         """C [N s/m]."""
-        return damping(self.bricks, self._layers)
+        return self._discretisation.damping(self.grid, self._layers)
 
     @cached_property
     def mass(self) -> sp.csr_array:
         """M [kg]."""
-        return mass(self.bricks, self._layers)
+        return self._discretisation.mass(self.grid, self._layers)
 
     @cached_property
     def branches(self) -> Branches:
         """What the layers remember with."""
-        return Branches(self.bricks, self._tissue)
+        times, layers = self._tissue.relaxation_times, self._layers
+        return Branches(times, tuple(self._discretisation.branch(self.grid, layers, time) for time in times))
 
     @cached_property
     def _order(self) -> IntArray:
-        nodes = dissection_order(self.bricks)
+        nodes = dissection_order(self.grid)
         return (nodes[:, None] + len(nodes) * np.arange(3)).ravel()
 
     def free(self, parity: Parity) -> IntArray:
         """Return the unknowns of a parity in the order of their elimination."""
         if parity not in self._free:
-            held = self.held | held_on_mirrors(self.bricks, parity)
+            held = self.held | held_on_mirrors(self.grid, parity)
             self._free[parity] = self._order[~held.ravel()[self._order]]
         return self._free[parity]
 
@@ -75,7 +86,7 @@ class QuarterSystem:
         """Solve K u = f; force [N] and displacement [m] of shape (3, nodes)."""
         free = self.free(parity)
         if parity not in self._static:
-            self._static[parity] = Factorisation(_submatrix(self.stiffness, free), self._solver)
+            self._static[parity] = Factorisation(submatrix(self.stiffness, free), self._solver)
         return self._spread(self._static[parity].solve(force.ravel()[free]), free)
 
     def step(
@@ -114,7 +125,7 @@ class QuarterSystem:
             matrix = self.mass + 0.5 * dt * self.damping + 0.25 * dt**2 * self.stiffness
             if remembers:
                 matrix = matrix + 0.5 * dt**2 * self.branches.on_average(dt)
-            self._dynamic[key] = Factorisation(_submatrix(matrix, free), self._solver)
+            self._dynamic[key] = Factorisation(submatrix(matrix, free), self._solver)
         u, v, fields = displacement.ravel(), velocity.ravel(), memory.reshape(len(memory), displacement.size)
         force = mean_force.ravel() - self.damping @ v - self.stiffness @ (u + 0.5 * dt * v)
         if remembers:
@@ -146,7 +157,7 @@ class QuarterSystem:
         key = (parity, dt)
         if key not in self._creeping:
             matrix = self.stiffness + self.branches.at_end(dt) if len(memory) else self.stiffness
-            self._creeping[key] = Factorisation(_submatrix(matrix, free), self._solver)
+            self._creeping[key] = Factorisation(submatrix(matrix, free), self._solver)
         right = force.ravel() - self.stiffness @ displacement.ravel()
         if len(memory):
             right -= self.branches.force_at_end(fields, dt)
@@ -157,7 +168,3 @@ class QuarterSystem:
         field = np.zeros(self.held.size)
         field[free] = values
         return field.reshape(self.held.shape)
-
-
-def _submatrix(matrix: sp.csr_array, rows: IntArray) -> sp.csr_array:
-    return sp.csr_array(matrix[rows][:, rows])

@@ -14,10 +14,11 @@ from weakref import finalize
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import splu
+from scipy.sparse.linalg import SuperLU, splu
 
 from trocar.errors import InputError, SolverError
 from trocar.model import FloatArray
+from trocar.reference.grid import IntArray
 
 Solve = Callable[[FloatArray], FloatArray]
 
@@ -45,6 +46,11 @@ def choose_solver(name: str) -> str:
     raise InputError("solver", "one of auto, superlu, pardiso", name)
 
 
+def submatrix(matrix: sp.csr_array, unknowns: IntArray) -> sp.csr_array:
+    """Return a matrix's part between some unknowns, in their order."""
+    return sp.csr_array(matrix[unknowns][:, unknowns])
+
+
 class Factorisation:
     """A factored symmetric positive definite matrix.
 
@@ -59,7 +65,7 @@ class Factorisation:
     def __init__(self, matrix: sp.csr_array, solver: str) -> None:
         self._matrix = matrix
         try:
-            self._solve = (_Pardiso if solver == "pardiso" else _superlu)(matrix)
+            self._solve: Solve = _Pardiso(matrix) if solver == "pardiso" else _superlu(matrix).solve
         except (RuntimeError, ValueError) as error:
             raise SolverError(
                 f"{solver} could not factor the {matrix.shape[0]} unknowns ({error}); "
@@ -89,9 +95,21 @@ class Factorisation:
         return solution
 
 
-def _superlu(matrix: sp.csr_array) -> Solve:
+def is_positive_definite(matrix: sp.csr_array, solver: str) -> bool:
+    """Return whether a symmetric matrix is, by the signs of its pivots (Sylvester's law of inertia)."""
+    try:
+        if solver == "pardiso":  # its Cholesky fails where the matrix is not
+            Factorisation(matrix, solver)
+            return True
+        factors = _superlu(matrix)
+    except (SolverError, RuntimeError):
+        return False
+    return bool((factors.U.diagonal() > 0).all())
+
+
+def _superlu(matrix: sp.csr_array) -> SuperLU:
     options = {"SymmetricMode": True, "Equil": False}
-    return splu(matrix.tocsc(), permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options).solve
+    return splu(matrix.tocsc(), permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options)
 
 
 class _Pardiso:

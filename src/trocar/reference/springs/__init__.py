@@ -1,0 +1,1 @@
+"""Mass-springs done well: a lattice of Kelvin-Voigt springs whose constants follow from the layers' moduli."""
