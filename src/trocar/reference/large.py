@@ -21,7 +21,7 @@ from trocar.reference.moving import advance, rest_factors
 from trocar.reference.newton import TOLERANCE, Balanced, Directions, NewtonError, balance
 from trocar.reference.parity import Parity
 from trocar.reference.part import Part, Static
-from trocar.reference.solver import Factorisation, is_positive_definite
+from trocar.reference.solver import Factorisation
 from trocar.reference.state import FEAState
 from trocar.tissues import Tissue
 
@@ -178,10 +178,6 @@ class LargeDeformation(Generic[G]):
             tolerance = TOLERANCE if aim == size else _ON_THE_WAY
             try:
                 found = _from_either(part, aim * force, guess, unknowns, aim * norm, tolerance, directions)
-                if (found.convex or aim == size) and not is_positive_definite(
-                    Static(part, force).tangent(found.unknowns), part.solver
-                ):
-                    raise NewtonError("the equilibrium is not stable")
             except NewtonError as error:
                 cuts, step, before = cuts + 1, 0.5 * (aim - reached), None
                 if step < smallest:

@@ -56,12 +56,10 @@ class Balanced:
     Args:
         unknowns: shape (n,).
         imbalances: norm over the scale at the start and after each iteration [1].
-        convex: whether a convex stand-in was needed: it also leads to equilibria that are not stable.
     """
 
     unknowns: FloatArray
     imbalances: tuple[float, ...]
-    convex: bool
 
 
 class NewtonError(TrocarError):
@@ -126,7 +124,7 @@ def balance(
     Raises:
         NewtonError: there are none, or they were not found.
     """
-    unknowns, convex = start, False
+    unknowns = start
     try:
         force = equations.imbalance(unknowns)
     except InversionError as error:
@@ -137,8 +135,7 @@ def balance(
             raise NewtonError(
                 f"Newton's method left {imbalances[-1]:.1g} of the load after {MOST_ITERATIONS} iterations"
             )
-        direction, stood_in = _direction(equations, unknowns, force, directions)
-        convex |= stood_in
+        direction = _direction(equations, unknowns, force, directions)
         try:
             unknowns, force = _line_search(equations, unknowns, force, direction)
         except NewtonError:
@@ -148,26 +145,26 @@ def balance(
         imbalances.append(float(np.linalg.norm(force)) / scale)
         if 0.5 * imbalances[-2] < imbalances[-1] <= _ROUNDING:
             break
-    return Balanced(unknowns=unknowns, imbalances=tuple(imbalances), convex=convex)
+    return Balanced(unknowns=unknowns, imbalances=tuple(imbalances))
 
 
 def _direction(
     equations: Equations, unknowns: FloatArray, force: FloatArray, directions: Directions
-) -> tuple[FloatArray, bool]:
-    """Return Newton's direction, or where it does not lower the energy that of the convex stand-in; and which it is."""
+) -> FloatArray:
+    """Return Newton's direction; where it does not lower the energy, that of the convex stand-in if there is one."""
     singular: SolverError | None = None
     try:
         direction = directions.solve(equations.tangent(unknowns), -force)
         if direction @ force < 0:
-            return direction, False
+            return direction
     except SolverError as error:
         direction, singular = np.zeros_like(force), error
     stand_in = equations.convex(unknowns)
     if stand_in is not None:
-        return directions.solve(stand_in, -force), True
+        return directions.solve(stand_in, -force)
     if singular is not None:
         raise NewtonError("the tangent stiffness is singular") from singular
-    return direction, False
+    return direction
 
 
 def _line_search(

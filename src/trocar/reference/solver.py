@@ -14,7 +14,7 @@ from weakref import finalize
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import SuperLU, splu
+from scipy.sparse.linalg import splu
 
 from trocar.errors import InputError, SolverError
 from trocar.model import FloatArray
@@ -65,7 +65,7 @@ class Factorisation:
     def __init__(self, matrix: sp.csr_array, solver: str) -> None:
         self._matrix = matrix
         try:
-            self._solve: Solve = _Pardiso(matrix) if solver == "pardiso" else _superlu(matrix).solve
+            self._solve = (_Pardiso if solver == "pardiso" else _superlu)(matrix)
         except (RuntimeError, ValueError) as error:
             raise SolverError(
                 f"{solver} could not factor the {matrix.shape[0]} unknowns ({error}); "
@@ -95,21 +95,9 @@ class Factorisation:
         return solution
 
 
-def is_positive_definite(matrix: sp.csr_array, solver: str) -> bool:
-    """Return whether a symmetric matrix is, by the signs of its pivots (Sylvester's law of inertia)."""
-    try:
-        if solver == "pardiso":  # its Cholesky fails where the matrix is not
-            Factorisation(matrix, solver)
-            return True
-        factors = _superlu(matrix)
-    except (SolverError, RuntimeError):
-        return False
-    return bool((factors.U.diagonal() > 0).all())
-
-
-def _superlu(matrix: sp.csr_array) -> SuperLU:
+def _superlu(matrix: sp.csr_array) -> Solve:
     options = {"SymmetricMode": True, "Equil": False}
-    return splu(matrix.tocsc(), permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options)
+    return splu(matrix.tocsc(), permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options).solve
 
 
 class _Pardiso:

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 from sample_tissues import three_layers
-from trocar.errors import InputError, SolverError
+from trocar.errors import InputError
 from trocar.model import Press
 from trocar.reference import FEASolid, MeshSize
 from trocar.reference.newton import Directions, NewtonError, balance
 from trocar.reference.part import Static
-from trocar.reference.solver import is_positive_definite
 from trocar.reference.springs.lattice import DeformedLattice
 from trocar.reference.springs.mass_spring import MassSpring, lattice_size
 from trocar.tissues import Layer, NeoHookean, Ogden, Tissue
@@ -178,15 +177,9 @@ def test_from_far_astray_the_convex_stand_in_leads_home_where_newtons_method_alo
         )
 
     solution = found()
-    assert solution.convex
     assert solution.unknowns == pytest.approx(home, abs=1e-8 * np.abs(home).max())
-    assert is_positive_definite(Static(part, load).tangent(home), "superlu")
-    assert not is_positive_definite(Static(part, load).tangent(astray), "superlu")
+    least = [np.linalg.eigvalsh(Static(part, load).tangent(place).toarray())[0] for place in (home, astray)]
+    assert least[0] > 0 > least[1]
     monkeypatch.setattr(DeformedLattice, "convex", lambda _self, _field: None)
     with pytest.raises(NewtonError, match="not stable"):
         found()
-
-
-def test_an_equilibrium_that_is_not_stable_is_refused():
-    with pytest.raises(SolverError, match=r"reached 0\.[56]\d* of 0.7 N and no more.*not stable"):
-        springs(Tissue(layers=(PAD,)), 2, linearised=False).static(pressed(0.7))
