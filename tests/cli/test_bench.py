@@ -71,3 +71,13 @@ def test_servo_refuses_no_rounds():
 @pytest.mark.parametrize("command", ["step", "cost", "servo"])
 def test_help_has_an_example(command):
     assert f"Example: trocar bench {command}" in run("bench", command, "--help")
+
+
+def test_models_refuses_what_it_cannot_be_asked():
+    for flag, value, words in (
+        ("--case", "slow", "static, dynamic, large force"),
+        ("--diameter-mm", "30", "a number from 5 to 12"),
+        ("--figure", "models.txt", ".svg"),
+    ):
+        with pytest.raises(InputError, match=words):
+            CliRunner().invoke(application(), ["bench", "models", flag, value], catch_exceptions=False)

@@ -11,6 +11,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from trocar.cli.bench_models import models
 from trocar.cli.bench_servo import servo
 from trocar.cli.bench_stream import stream
 from trocar.errors import InputError
@@ -37,6 +38,7 @@ def register(app: typer.Typer) -> None:
     group = typer.Typer(no_args_is_help=True, help="Measure what steps cost on this machine.")
     group.command("step", epilog="Example: trocar bench step --diameter-mm 8")(step)
     group.command("cost", epilog="Example: trocar bench cost --quick")(cost)
+    group.command("models", epilog="Example: trocar bench models --quick --figure models.png")(models)
     group.command("servo", epilog="Example: trocar bench servo --seconds 60 --rounds 5")(servo)
     group.command("stream", epilog="Example: trocar bench stream --seconds 30")(stream)
     app.add_typer(group, name="bench", epilog="Example: trocar bench step")

@@ -23,14 +23,28 @@ ORANGE, SKY, GREEN, YELLOW = "#E69F00", "#56B4E9", "#009E73", "#F0E442"
 BLUE, VERMILION, PURPLE = "#0072B2", "#D55E00", "#CC79A7"
 DEPTHS = "YlGnBu"  # pale at rest, dark where deep: read by lightness alone, the same to the colour-blind
 
-MODEL_LABELS = {"fea": "finite elements", "wave-solid": "WaveSolid", "wave-membrane": "WaveMembrane"}
+MODEL_LABELS = {
+    "fea": "finite elements",
+    "wave-solid": "WaveSolid",
+    "wave-membrane": "WaveMembrane",
+    "wave-mesh": "WaveMesh",
+    "mass-spring": "mass-springs",
+    "mesh-free": "mesh-free",
+}
 # The reference is a broad pale band, the judged models thin lines on it: curves that coincide are all seen.
 MODEL_LINES: dict[str, dict[str, Any]] = {
     "fea": {"color": "#b4b9bf", "linewidth": 4.5, "linestyle": "-", "solid_capstyle": "round"},
     "wave-solid": {"color": BLUE, "linewidth": 1.6, "linestyle": "-"},
     "wave-membrane": {"color": VERMILION, "linewidth": 1.4, "linestyle": (0, (4, 2))},
 }
-MODEL_MARKS = {"fea": ("s", GREY), "wave-solid": ("o", BLUE), "wave-membrane": ("^", VERMILION)}
+MODEL_MARKS = {
+    "fea": ("s", GREY),
+    "wave-solid": ("o", BLUE),
+    "wave-membrane": ("^", VERMILION),
+    "wave-mesh": ("D", SKY),
+    "mass-spring": ("v", GREEN),
+    "mesh-free": ("X", PURPLE),
+}
 LAYER_COLOURS = (ORANGE, BLUE, GREEN, PURPLE, SKY, VERMILION)
 LAYER_STYLES: tuple[Any, ...] = (
     "-",
