@@ -10,14 +10,14 @@ geometric stiffness, dead traction. Layers with a hyperelastic law follow large 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
-from math import inf, isfinite
+from math import inf
 
 import numpy as np
 
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
+from trocar.reference.arguments import check_step, checked_size, checked_support
 from trocar.reference.block import MeshSize, quarter_mesh
 from trocar.reference.domain import wholes
 from trocar.reference.forces import NodalForces
@@ -82,8 +82,8 @@ class FEASolid:
             )
         self._tissue = tissue
         self._massless = massless
-        self._size = _checked_size(size)
-        self._support = _checked_support(support)
+        self._size = checked_size(size)
+        self._support = checked_support(support)
         self.solver_name = choose_solver(solver)
         a, b = self._size
         self._around = around or (Press(x=a / 2, y=b / 2, radius=_DEFAULT_RADIUS * min(a, b), force=1.0),)
@@ -186,12 +186,7 @@ class FEASolid:
             InputError: dt is not above 0, the loads hold unequally many presses, or one is off the block.
             SolverError: the equations could not be solved accurately.
         """
-        if not (isfinite(dt) and dt > 0):
-            raise InputError("dt", "a finite time above 0", dt)
-        if len(load0) != len(load1):
-            raise InputError(
-                "load1", f"{len(load0)} presses, as in load0", len(load1), "give an idle press force 0"
-            )
+        check_step(load0, load1, dt)
         force0, force1 = self._forces(load0), self._forces(load1)
         if self._large and self._massless:  # without memory, every instant is an equilibrium
             return replace(self.static(load1), time=state.time + dt)
@@ -330,16 +325,3 @@ def _subdivided(lines: FloatArray) -> FloatArray:
     """Put points between grid lines, so that the largest deflection between two nodes is not missed."""
     part = np.arange(_POINTS_PER_ELEMENT) / _POINTS_PER_ELEMENT
     return np.append((lines[:-1, None] + part * np.diff(lines)[:, None]).ravel(), lines[-1])
-
-
-def _checked_size(size: Sequence[float]) -> tuple[float, float]:
-    if len(size) != 2 or not all(isfinite(side) and side > 0 for side in size):
-        raise InputError("size", "two finite sides above 0 [m]", size)
-    return float(size[0]), float(size[1])
-
-
-def _checked_support(support: Support | str) -> Support:
-    try:
-        return Support(support)
-    except ValueError:
-        raise InputError("support", f"one of {', '.join(Support)}", support) from None

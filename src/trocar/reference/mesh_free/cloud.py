@@ -1,0 +1,154 @@
+"""The nodes of a block and how far each is felt: graded planes of them, one on every interface, doubled on cuts.
+
+A node's support is a box with its own reach on each of its six sides: DILATION times the distance to the next node
+there, and never past a face of the node's layer or a held side. So on an interface, on the base and on the sides no
+nodes count but those of the face itself, which both layers share: fields are continuous across an interface, their
+slopes jump there, and holding the nodes of a face holds all of the face. (Truncated supports as in C. A. Duarte and
+J. T. Oden 1996 and the interface treatment of L. W. Cordes and B. Moran 1996, Comput. Methods Appl. Mech. Eng. 139:75,
+with shared nodes in place of multipliers.)
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from trocar.model import FloatArray, Load, Support
+from trocar.reference.block import MeshSize, quarter_mesh
+from trocar.reference.mesh import IntArray
+from trocar.reference.mesh_free.cut import NORMAL, Cut, on_the_cut
+from trocar.reference.parity import mirrored_lines
+from trocar.tissues import Tissue
+
+BoolArray = npt.NDArray[np.bool_]
+
+DILATION = (1.6, 1.6, 1.6)
+"""Reach of a node over the distance to the next one, along x, y and z [1]."""
+
+_NEAR = 1e-7  # of the block's longest side: nearer nodes lie in a cut
+_APART = 4.0  # of that: by how much the copies of a node are moved apart when it is asked what is seen
+
+
+class Cloud(NamedTuple):
+    """Nodes, supports and cuts; a tuple of arrays, so that compiled functions take it.
+
+    Args:
+        x, y, z: planes of nodes [m], ascending; the cells of the quadrature lie between them.
+        slab_layer: the layer between two z planes, shape (len(z) - 1,).
+        places: of the nodes [m], shape (n, 3); first the grid's, z fastest, then the copies on cuts.
+        seen_at: the same, copies moved apart.
+        below, above: reach of the supports towards lower and higher coordinates [m], shape (n, 3).
+        copy: the next copy of a node or -1, shape (n,).
+        cuts: frames of the cuts, shape (cuts, 4, 3).
+        lines: how many planes further a support may reach, along x, y, z; shape (3,).
+    """
+
+    x: FloatArray
+    y: FloatArray
+    z: FloatArray
+    slab_layer: IntArray
+    places: FloatArray
+    seen_at: FloatArray
+    below: FloatArray
+    above: FloatArray
+    copy: IntArray
+    cuts: FloatArray
+    lines: IntArray
+
+
+def scatter(
+    tissue: Tissue,
+    size: tuple[float, float],
+    support: Support,
+    around: Load,
+    spacing: MeshSize,
+    cuts: tuple[Cut, ...],
+) -> Cloud:
+    """Place the nodes of a block.
+
+    Args:
+        tissue: the layers.
+        size: sides of the block [m].
+        support: how it is held.
+        around: presses under which nodes lie close together; at least one.
+        spacing: how closely.
+        cuts: what is cut.
+
+    Raises:
+        InputError: a footprint is off the block.
+    """
+    quarter = quarter_mesh(tissue, size, support, around, spacing)
+    x, y = (mirrored_lines(half, side) for half, side in zip((quarter.x, quarter.y), size, strict=True))
+    z = quarter.z
+    faces = np.flatnonzero(np.diff(quarter.slab_layer)) + 1
+    reaches = [
+        _reach(x, np.array([0, len(x) - 1]), DILATION[0]),
+        _reach(y, np.array([0, len(y) - 1]), DILATION[1]),
+        _reach(z, np.array([0, *faces, len(z) - 1]), DILATION[2]),
+    ]
+    places = _grid(x, y, z)
+    below, above = (_grid(*(reach[side] for reach in reaches)) for side in (0, 1))
+    frames = np.array([cut.frame(size, tissue.thickness) for cut in cuts]).reshape(-1, 4, 3)
+    parent, seen_at, copy = _doubled(places, frames, _NEAR * max(*size, tissue.thickness))
+    return Cloud(
+        x=x,
+        y=y,
+        z=z,
+        slab_layer=quarter.slab_layer,
+        places=places[parent],
+        seen_at=seen_at,
+        below=below[parent],
+        above=above[parent],
+        copy=copy,
+        cuts=frames,
+        lines=np.array([int(np.ceil(dilation)) + 1 for dilation in DILATION]),
+    )
+
+
+def held_nodes(cloud: Cloud, support: Support) -> BoolArray:
+    """Return which displacement components the support holds at zero, shape (n, 3)."""
+    held = np.zeros(cloud.places.shape, dtype=np.bool_)
+    if support.base_held:
+        held |= (cloud.places[:, 2] == cloud.z[0])[:, None]
+    for axis, lines in enumerate((cloud.x, cloud.y)):
+        side = (cloud.places[:, axis] == lines[0]) | (cloud.places[:, axis] == lines[-1])
+        for component in range(3):
+            if support.sides_clamped or component != axis:
+                held[:, component] |= side
+    return held
+
+
+def _grid(x: FloatArray, y: FloatArray, z: FloatArray) -> FloatArray:
+    return np.ascontiguousarray(np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1).reshape(-1, 3))
+
+
+def _reach(lines: FloatArray, faces: IntArray, dilation: float) -> tuple[FloatArray, FloatArray]:
+    """Return how far the nodes of planes are felt below and above them [m]; faces are not reached across."""
+    apart = np.diff(lines)
+    below, above = (dilation * np.append(*pair) for pair in ((apart[:1], apart), (apart, apart[-1:])))
+    for number in range(len(lines)):
+        lower, upper = faces[faces < number], faces[faces > number]
+        if len(lower):
+            below[number] = min(below[number], lines[number] - lines[lower[-1]])
+        if len(upper):
+            above[number] = min(above[number], lines[upper[0]] - lines[number])
+    return below, above
+
+
+def _doubled(places: FloatArray, frames: FloatArray, near: float) -> tuple[IntArray, FloatArray, IntArray]:
+    """Return of every node and copy: the node it is a copy of, where it is seen [m], and its next copy."""
+    parent, seen_at = np.arange(len(places)), places.copy()
+    copy = np.full(len(places), -1)
+    for frame in frames:
+        twice = np.flatnonzero(on_the_cut(frame, places[parent], near))
+        apart = _APART * near * frame[NORMAL]
+        fresh = len(parent) + np.arange(len(twice))
+        copy = np.append(copy, copy[twice])
+        copy[twice] = fresh
+        parent = np.append(parent, parent[twice])
+        seen_at = np.concatenate([seen_at, seen_at[twice] - apart])
+        seen_at[twice] += apart
+    return parent, seen_at, copy
+
