@@ -10,6 +10,7 @@ from trocar.errors import InputError
 from trocar.model import Profile, TissueModel
 from trocar.reference.block import MeshSize
 from trocar.reference.fea import FEASolid
+from trocar.reference.mesh_free.mesh_free import MeshFree, Stepping
 from trocar.study.cases.experiment import Case
 from trocar.waves.cutoff import modes_for
 from trocar.waves.fit import RADII
@@ -26,7 +27,9 @@ _SHARE_LEFT_OUT = (
 )
 _RIGID_HALF_WAVE, _MOST_RIGID_MODES = 1e-3, 128
 _MOST_LEFT_OUT = 0.1  # where MOST_MODES is not enough: 2 % is missing
-NOT_BUILT_YET = ("mass-spring", "mesh-free")
+NOT_BUILT_YET = ("mass-spring",)
+_RESOLUTION, _COARSE_RESOLUTION = 2.0, 1.0  # of the mesh-free model: within 2 and 6 % (`bench/mesh_free.py`)
+_MOST_EXPLICIT_STEPS = 2e6  # an hour or two
 
 
 def _wave_membrane(case: Case) -> AnyModel:
@@ -105,14 +108,56 @@ def _finite_elements(case: Case, mesh: MeshSize | None) -> AnyModel:
     )
 
 
+def _mesh_free(case: Case) -> AnyModel:
+    return _element_free(case, _RESOLUTION)
+
+
+def _coarse_mesh_free(case: Case) -> AnyModel:
+    return _element_free(case, _COARSE_RESOLUTION)
+
+
+def _element_free(case: Case, resolution: float) -> AnyModel:
+    """Linear layers move in implicit time: thin stiff ones make the steps of explicit time too short."""
+    large = case.tissue.large_deformation
+    model = MeshFree(
+        case.tissue,
+        size=case.size,
+        support=case.support,
+        around=case.load_at(0.0),
+        resolution=resolution,
+        mirrored=_in_the_middle(case),
+        stepping=Stepping.EXPLICIT if large else Stepping.IMPLICIT,
+        massless=not case.sampling.dynamic,
+    )
+    if case.sampling.dynamic and large and case.duration > _MOST_EXPLICIT_STEPS * model.critical_step:
+        raise InputError(
+            "sampling: dynamic",
+            f"at most {_MOST_EXPLICIT_STEPS * model.critical_step:.3g} s in explicit time, for the mesh-free model "
+            "with neo-hookean layers",
+            case.duration,
+            f"its steps are {model.critical_step:.2g} s long; take linear layers, a quasi-static case or fea",
+        )
+    return model
+
+
+def _in_the_middle(case: Case) -> bool:
+    middle = tuple(0.5 * side for side in case.size)
+    return all((press.x, press.y) == middle and press.tilt == 0 for press in case.load_at(0.0))
+
+
 COARSE_MESH = MeshSize(per_radius=2.0, growth=0.6, top=0.4, deepening=0.7, side=0.4)
 MODELS: dict[str, Callable[[Case], AnyModel]] = {
     "wave-membrane": _wave_membrane,
     "wave-solid": _wave_solid,
     "wave-mesh": _wave_mesh,
     "fea": _fea,
+    "mesh-free": _mesh_free,
 }
-QUICK_MODELS = {**MODELS, "fea": _coarse_fea}  # a fifth of the unknowns, within 1.5 % instead of 0.2 %
+QUICK_MODELS = {
+    **MODELS,
+    "fea": _coarse_fea,  # a fifth of the unknowns, within 1.5 % instead of 0.2 %
+    "mesh-free": _coarse_mesh_free,
+}
 
 
 def usual_models(case: Case) -> tuple[str, ...]:

@@ -17,8 +17,9 @@ from trocar.reference.mesh_free.ordering import dissection_order
 from trocar.reference.mesh_free.patches import Patches, divide
 from trocar.reference.mesh_free.shape import evaluate
 from trocar.reference.mesh_free.stiffness import Pattern, lumped_mass, moduli_at_rest
-from trocar.reference.mesh_free.stress import Laws, internal_forces, laws_of
+from trocar.reference.mesh_free.stress import Laws, internal_forces, laws_of, slopes_of
 from trocar.reference.solver import Factorisation
+from trocar.reference.stress import Deformation
 from trocar.tissues import Tissue
 
 _AT_REST = np.eye(3)[None]  # dJ/dF
@@ -33,12 +34,14 @@ class Body:
         tissue: the layers.
         support: how the block is held.
         solver: "superlu" or "pardiso".
+        mirrored: whether the nodes are those of a quarter.
     """
 
     cloud: Cloud
     tissue: Tissue
     support: Support
     solver: str
+    mirrored: bool = False
 
     @cached_property
     def patches(self) -> Patches:
@@ -58,7 +61,7 @@ class Body:
     @cached_property
     def held(self) -> BoolArray:
         """Which components the support holds at zero, shape (nodes, 3)."""
-        return held_nodes(self.cloud, self.support)
+        return held_nodes(self.cloud, self.support, mirrored=self.mirrored)
 
     @cached_property
     def free(self) -> IntArray:
@@ -125,6 +128,12 @@ class Body:
         if patch >= 0 or not np.isfinite(forces).all():
             raise InversionError(patch, "tissue is turned inside out")
         return forces
+
+    def deformations(self, displacement: FloatArray) -> list[Deformation]:
+        """Return how far each layer is deformed by a displacement [m], shape (nodes, 3)."""
+        gradient = slopes_of(self.patches, displacement) + np.eye(3)
+        layer = np.repeat(self.patches.layer, np.diff(self.patches.part_start))
+        return [Deformation.of(gradient[layer == number]) for number in range(len(self.tissue.layers))]
 
     def interpolation(self, points: FloatArray, layer: int) -> sp.csr_array:
         """Return the shape functions at points of a layer's upper face, shape (points, nodes).

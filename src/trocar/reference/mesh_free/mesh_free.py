@@ -28,12 +28,14 @@ from trocar.reference.mesh_free.explicit import advance, critical_step
 from trocar.reference.mesh_free.implicit import AverageAcceleration
 from trocar.reference.mesh_free.large import equilibrium
 from trocar.reference.mesh_free.state import MeshFreeState
-from trocar.reference.parity import fold
+from trocar.reference.parity import QUARTERS, fold, mirrored_lines
 from trocar.reference.solver import choose_solver
+from trocar.reference.stress import Deformation
 from trocar.tissues import Linear, NeoHookean, Tissue
 
 _LEAST_RESOLUTION, _MOST_RESOLUTION = 0.4, 8.0
 _LONGEST_STEP = 2.5e-4  # [s] of implicit time, as of the finite elements
+_QUARTERS = len(QUARTERS)
 _KEPT_PRESSES, _KEPT_STEPS = 16, 2
 _DEFAULT_RADIUS = 1 / 15  # of the shorter side, as of the finite elements
 
@@ -57,6 +59,7 @@ class MeshFree:
         resolution: nodes per length, relative to two along a footprint's half width [1]; the cost of an equilibrium
             grows with its fifth to sixth power, that of explicit time with its fourth.
         cuts: what is cut from the start.
+        mirrored: solves a quarter of the block, for upright presses in its middle and no cuts.
         stepping: "explicit" or "implicit" time.
         massless: leaves inertia and damping out of `step`: every instant is an equilibrium.
         solver: "superlu", "pardiso" (Intel MKL, from the extra `trocar[pardiso]`) or "auto", the fastest installed.
@@ -74,6 +77,7 @@ class MeshFree:
         around: Load = (),
         resolution: float = 1.0,
         cuts: tuple[Cut, ...] = (),
+        mirrored: bool = False,
         stepping: Stepping | str = Stepping.EXPLICIT,
         massless: bool = False,
         solver: str = "auto",
@@ -83,13 +87,23 @@ class MeshFree:
             raise InputError(
                 "resolution", f"a number from {_LEAST_RESOLUTION:g} to {_MOST_RESOLUTION:g}", resolution
             )
+        if mirrored and cuts:
+            raise InputError("mirrored", "a whole block where there are cuts", mirrored)
         self._stepping = _checked_stepping(stepping, tissue)
         self._size, self._support = checked_size(size), checked_support(support)
         self._massless, self._resolution, self._cuts = massless, resolution, tuple(cuts)
         a, b = self._size
         self._around = around or (Press(x=a / 2, y=b / 2, radius=_DEFAULT_RADIUS * min(a, b), force=1.0),)
-        cloud = scatter(tissue, self._size, self._support, self._around, _spacing(resolution), self._cuts)
-        self._body = Body(cloud, tissue, self._support, choose_solver(solver))
+        cloud = scatter(
+            tissue,
+            self._size,
+            self._support,
+            self._around,
+            _spacing(resolution),
+            self._cuts,
+            mirrored=mirrored,
+        )
+        self._body = Body(cloud, tissue, self._support, choose_solver(solver), mirrored)
         self._units: dict[Press, FloatArray] = {}
         self._responses: dict[Press, FloatArray] = {}
         self._steps: dict[float, AverageAcceleration] = {}
@@ -113,6 +127,11 @@ class MeshFree:
     def support(self) -> Support:
         """How the block is held."""
         return self._support
+
+    @property
+    def large_deformation(self) -> bool:
+        """Whether the layers' laws are followed to large strain."""
+        return self.tissue.large_deformation
 
     @property
     def cuts(self) -> tuple[Cut, ...]:
@@ -163,6 +182,7 @@ class MeshFree:
             around=self._around,
             resolution=self._resolution,
             cuts=cuts,
+            mirrored=self._body.mirrored,
             stepping=self._stepping,
             massless=self._massless,
             solver=self._body.solver,
@@ -224,14 +244,28 @@ class MeshFree:
         """
         self._check_state(state)
         number = self.tissue.index(layer)
-        fold(points, self._size)  # refuses what is off the block
-        return np.asarray(self._body.interpolation(np.asarray(points), number) @ state.displacement)
+        return self._interpolated(points, number, state.displacement)
 
     def reaction(self, state: MeshFreeState, load: Load = ()) -> FloatArray:
         """Return the force of the supports on the block [N], shape (3,), at an equilibrium under a load."""
         self._check_state(state)
         internal = self._body.internal(state.displacement, state.velocity)
-        return np.asarray(np.where(self._body.held, internal - self._forces(load), 0.0).sum(axis=0))
+        total = np.where(self._body.held, internal - self._forces(load), 0.0).sum(axis=0)
+        return np.asarray(_QUARTERS * np.array([0, 0, total[2]]) if self._body.mirrored else total)
+
+    def deformation(self, state: MeshFreeState) -> dict[str, Deformation]:
+        """Return how far each layer is stretched and its volume changed, at the points of the quadrature."""
+        self._check_state(state)
+        return dict(zip(self.layer_names, self._body.deformations(state.displacement), strict=True))
+
+    def _interpolated(self, points: FloatArray, layer: int, field: FloatArray) -> FloatArray:
+        """Return a field of the nodes at points of a layer's upper face, shape (n, 3)."""
+        folded, images = fold(points, self._size)
+        if not self._body.mirrored:
+            return np.asarray(self._body.interpolation(np.asarray(points), layer) @ field)
+        found = self._body.interpolation(folded, layer) @ field
+        found[:, :2] *= 1 - 2 * images
+        return np.asarray(found)
 
     def _response(self, press: Press) -> FloatArray:
         if press not in self._responses:
@@ -252,10 +286,26 @@ class MeshFree:
         if press not in self._units:
             if len(self._units) >= _KEPT_PRESSES:
                 self._units.pop(next(iter(self._units)))
-            points, shares = footprint_points(press, self._body.cloud.x, self._body.cloud.y)
-            spread = self._body.interpolation(points, 0).T @ shares
-            self._units[press] = np.outer(spread, press.force_vector)
+            self._units[press] = self._integrated(press)
         return self._units[press]
+
+    def _integrated(self, press: Press) -> FloatArray:
+        lines = self._body.cloud.x, self._body.cloud.y
+        if not self._body.mirrored:
+            points, shares = footprint_points(press, *lines)
+            return np.outer(self._body.interpolation(points, 0).T @ shares, press.force_vector)
+        middle = tuple(0.5 * side for side in self._size)
+        if press.tilt or not np.allclose((press.x, press.y), middle, rtol=0, atol=1e-9 * max(self._size)):
+            raise InputError(
+                "press",
+                f"an upright one at ({middle[0]:g}, {middle[1]:g}) m for a mirrored model",
+                press,
+                "leave `mirrored` out",
+            )
+        halves = zip(lines, self._size, strict=True)
+        points, shares = footprint_points(press, *(mirrored_lines(half, side) for half, side in halves))
+        spread = self._body.interpolation(fold(points, self._size)[0], 0).T @ shares
+        return np.outer(spread / _QUARTERS, press.force_vector)
 
     def _check_state(self, state: MeshFreeState) -> None:
         if state.displacement.shape != self.nodes.shape:
