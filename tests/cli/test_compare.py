@@ -28,7 +28,7 @@ def test_json_is_alone_on_stdout(capsys):
         (["nothing.toml"], "nothing.toml"),
         ([PRESS, "--models", "fem"], "fem"),
         ([PRESS, "--models", ","], "at least one"),
-        ([PRESS, "--models", "mesh-free"], "not built yet"),
+        ([PRESS, "--models", "mass-spring"], "not built yet"),
         ([], "'case'"),
     ],
 )
