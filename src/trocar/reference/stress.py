@@ -101,10 +101,9 @@ class Deformation:
 
 def deformations(bricks: Bricks, layers: tuple[Layer, ...], fields: list[FloatArray]) -> list[Deformation]:
     """Return how far each layer is deformed; arguments as in `largest_von_mises`."""
-    found = []
-    for number in range(len(layers)):
-        found.append(Deformation.of(np.concatenate(_gradients(bricks, number, fields))))
-    return found
+    return [
+        Deformation.of(np.concatenate(_gradients(bricks, number, fields))) for number in range(len(layers))
+    ]
 
 
 def _gradients(bricks: Bricks, layer: int, fields: list[FloatArray]) -> list[FloatArray]:

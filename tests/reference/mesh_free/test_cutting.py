@@ -10,7 +10,10 @@ from trocar.reference.opening import OpenedBlock
 from trocar.tissues import Layer, Tissue
 
 SIZE = (0.03, 0.03)
-BESIDE = (Press(x=0.0095, y=0.015, radius=4e-3, force=0.05), Press(x=0.0205, y=0.015, radius=4e-3, force=0.05))
+BESIDE = (
+    Press(x=0.0095, y=0.015, radius=4e-3, force=0.05),
+    Press(x=0.0205, y=0.015, radius=4e-3, force=0.05),
+)
 PLACES = np.array([[0.0095, 0.015], [0.01499, 0.015]])  # under a tool, at the lip of the cut
 
 

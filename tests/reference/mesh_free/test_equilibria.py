@@ -88,7 +88,9 @@ def test_cut_or_not_the_support_bears_all_of_the_force():
 def test_large_deformation_is_that_of_finite_elements():
     press = PRESS.with_force(0.4)
     fea, free = pair(stacked(law=NeoHookean()), mirrored=True, resolution=1.5)
-    found, expected, linear = (deflection(one, press) for one in (free, fea, pair(stacked(), mirrored=True)[1]))
+    found, expected, linear = (
+        deflection(one, press) for one in (free, fea, pair(stacked(), mirrored=True)[1])
+    )
     assert abs(linear / expected - 1) > 0.08
     assert found == pytest.approx(expected, rel=0.04)
     stretched = free.deformation(free.static((press,)))
@@ -97,7 +99,13 @@ def test_large_deformation_is_that_of_finite_elements():
 
 
 def test_the_tangent_is_the_derivative_of_the_forces():
-    free = MeshFree(stacked(law=NeoHookean(), prestress_x=500.0), size=SIZE, support="base", around=(PRESS,), mirrored=True)
+    free = MeshFree(
+        stacked(law=NeoHookean(), prestress_x=500.0),
+        size=SIZE,
+        support="base",
+        around=(PRESS,),
+        mirrored=True,
+    )
     body = free._body
     balance = Balance(body, np.zeros(len(body.free)))
     about = free.static((PRESS.with_force(0.2),)).displacement.ravel()[body.free]
@@ -108,7 +116,9 @@ def test_the_tangent_is_the_derivative_of_the_forces():
 
 
 def test_a_load_beyond_any_equilibrium_is_refused_in_a_sentence():
-    free = MeshFree(stacked(law=NeoHookean()), size=SIZE, support="base", around=(PRESS,), resolution=0.5, mirrored=True)
+    free = MeshFree(
+        stacked(law=NeoHookean()), size=SIZE, support="base", around=(PRESS,), resolution=0.5, mirrored=True
+    )
     with pytest.raises(SolverError, match="of the load and no more"):
         free.static((PRESS.with_force(1e3),))
 

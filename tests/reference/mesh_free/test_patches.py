@@ -18,7 +18,14 @@ SLOPE = np.array([[0.02, 0.03, -0.01], [0.01, -0.04, 0.02], [0.05, -0.02, 0.03]]
 
 def body(law=None, moduli=(1e4,)):
     layers = tuple(
-        Layer(name=f"layer {i}", thickness=4e-3, young_modulus=E, poisson_ratio=0.48, density=1e3, law=law or Linear())
+        Layer(
+            name=f"layer {i}",
+            thickness=4e-3,
+            young_modulus=E,
+            poisson_ratio=0.48,
+            density=1e3,
+            law=law or Linear(),
+        )
         for i, E in enumerate(moduli)
     )
     tissue = Tissue(layers=layers)

@@ -84,7 +84,10 @@ def test_nodes_on_a_cut_are_doubled_and_each_copy_is_seen_from_its_side():
     nodes = cloud(Cut(start=(line, 0.0), end=(line, 0.024), depth=1.0))
     extra = len(nodes.places) - len(cloud().places)
     assert extra == len(nodes.y) * len(nodes.z)
-    left, right = (weights(nodes, np.array([x, 0.01, -0.004]), np.array([x, 0.01, -0.004])) for x in (line - 1e-4, line + 1e-4))
+    left, right = (
+        weights(nodes, np.array([x, 0.01, -0.004]), np.array([x, 0.01, -0.004]))
+        for x in (line - 1e-4, line + 1e-4)
+    )
     assert not ((left != 0) & (right != 0)).any()
 
 

@@ -39,7 +39,9 @@ def tapped(solid, dt=1e-3, count=20):
     """Deflection under a force that rises in 2 ms and is then held [m]."""
     state, found = solid.init(), []
     for number in range(count):
-        load0, load1 = ((PRESS.with_force(PRESS.force * min(t / 2e-3, 1.0)),) for t in (number * dt, (number + 1) * dt))
+        load0, load1 = (
+            (PRESS.with_force(PRESS.force * min(t / 2e-3, 1.0)),) for t in (number * dt, (number + 1) * dt)
+        )
         state = solid.step(state, load0, load1, dt)
         found.append(solid.displacement(state, UNDER)[0, 2])
     return np.array(found)
@@ -54,12 +56,18 @@ def energy(solid, state):
 def test_explicit_and_implicit_time_agree():
     explicit = tapped(model(pad(0.2)))
     implicit = tapped(model(pad(0.2), stepping="implicit"), dt=1e-4, count=200)[9::10]
-    np.testing.assert_allclose(explicit, implicit, atol=0.01 * np.abs(implicit).max())  # implicit: dt^2 of fast modes
+    np.testing.assert_allclose(
+        explicit, implicit, atol=0.01 * np.abs(implicit).max()
+    )  # implicit: dt^2 of fast modes
 
 
 def test_a_tap_is_that_of_finite_elements():
     fea = FEASolid(
-        pad(0.2), size=SIZE, support="base", around=(PRESS,), mesh=MeshSize(per_radius=2.0, growth=0.6, top=0.4, deepening=0.7)
+        pad(0.2),
+        size=SIZE,
+        support="base",
+        around=(PRESS,),
+        mesh=MeshSize(per_radius=2.0, growth=0.6, top=0.4, deepening=0.7),
     )
     expected = tapped(fea, dt=2.5e-4, count=80)[3::4]
     found = tapped(model(pad(0.2), resolution=1.5))
@@ -86,7 +94,9 @@ def test_damping_shortens_the_critical_step_by_the_stiffest_mode_s_share():
     omega = 2 / undamped
     zeta = 0.2 / (2 * np.pi * 50.0) * omega / 2
     damped = model(pad(0.2)).critical_step
-    assert damped == pytest.approx(undamped * (np.sqrt(1 + zeta**2) - zeta), rel=1e-2)  # two Lanczos estimates
+    assert damped == pytest.approx(
+        undamped * (np.sqrt(1 + zeta**2) - zeta), rel=1e-2
+    )  # two Lanczos estimates
 
 
 def test_halving_the_step_quarters_the_error():
@@ -112,7 +122,9 @@ def test_neo_hookean_layers_at_small_strain_move_as_linear_ones():
         advance(solid._body, longest, (rest, rest), (rest, force), 5e-3)[0]
         for solid, longest in zip((linear, large), step, strict=True)
     ]
-    np.testing.assert_allclose(ends[1], ends[0], atol=1e-3 * np.abs(ends[0]).max())  # strains of the order of 1e-4
+    np.testing.assert_allclose(
+        ends[1], ends[0], atol=1e-3 * np.abs(ends[0]).max()
+    )  # strains of the order of 1e-4
 
 
 def test_massless_steps_are_equilibria():

@@ -191,4 +191,3 @@ def _doubled(places: FloatArray, frames: FloatArray, near: float) -> tuple[IntAr
         seen_at = np.concatenate([seen_at, seen_at[twice] - apart])
         seen_at[twice] += apart
     return parent, seen_at, copy
-

@@ -28,7 +28,7 @@ class Cut:
     """A parallelogram through the top face.
 
     Args:
-        start, end: of the stroke on the top face [m], (x, y); on a side of the block or beyond, it cuts the side through.
+        start, end: of the stroke on the top face [m], (x, y); on a side of the block or beyond, it cuts the side too.
         depth: of the cut's lower edge below the top face [m]; at the block's thickness or beyond, it cuts through.
         lean: of the blade from the vertical [rad], to the left of the stroke where positive.
 
@@ -104,7 +104,8 @@ def hidden(cuts: FloatArray, seen_from: FloatArray, place: FloatArray) -> bool: 
 
     Args:
         cuts: frames, shape (n, 4, 3).
-        seen_from, place: [m], shape (3,).
+        seen_from: the one place [m], shape (3,).
+        place: the other [m], shape (3,).
     """
     for cut in range(cuts.shape[0]):
         frame = cuts[cut]

@@ -4,8 +4,8 @@ With a = M^-1 (f - internal forces at u and the last half step's velocity),
 
     v(n + 1/2) = v(n - 1/2) + h a(n),   u(n + 1) = u(n) + h v(n + 1/2)
 
-(T. Belytschko, W. K. Liu and B. Moran 2000, Nonlinear Finite Elements, box 6.1). Each step of the caller begins and ends
-with half a kick. It is stable while
+(T. Belytschko, W. K. Liu and B. Moran 2000, Nonlinear Finite Elements, box 6.1): second order, first where layers are
+damped, whose velocity is half a step old. Each step of the caller begins and ends with half a kick. It is stable while
 
     h^2/4 omega^2 + h/2 delta <= 1
 
@@ -80,11 +80,13 @@ def advance(
     for halving in range(_MOST_RETRIES + 1):
         count = ceil(dt / longest) * 2**halving
         displacement, velocity = start[0].copy(), start[1].copy()
-        failed = _advance(body.patches, body.laws, mass, held, displacement, velocity, *forces, count, dt / count)
+        failed = _advance(
+            body.patches, body.laws, mass, held, displacement, velocity, *forces, count, dt / count
+        )
         if not failed and np.isfinite(displacement).all():
             return displacement, velocity
     raise SolverError(
-        f"mesh-free: tissue turned inside out within a step of {dt:.3g} s, taken in as many as {count} parts; "
+        f"mesh-free: tissue turned inside out within a step of {dt:.3g} s, however short its parts; "
         "take less force or a slower load"
     )
 

@@ -106,6 +106,7 @@ class MeshFree:
         self._body = Body(cloud, tissue, self._support, choose_solver(solver), mirrored)
         self._units: dict[Press, FloatArray] = {}
         self._responses: dict[Press, FloatArray] = {}
+        self._equilibria: dict[Load, FloatArray] = {}
         self._steps: dict[float, AverageAcceleration] = {}
 
     @property
@@ -202,7 +203,11 @@ class MeshFree:
         """
         found = np.zeros_like(self.nodes)
         if self.tissue.large_deformation:
-            found = equilibrium(self._body, self._forces(load))
+            if load not in self._equilibria:
+                if len(self._equilibria) >= _KEPT_PRESSES:
+                    self._equilibria.pop(next(iter(self._equilibria)))
+                self._equilibria[load] = equilibrium(self._body, self._forces(load))
+            found = self._equilibria[load]
         else:
             for press in load:
                 found = found + press.force * self._response(press.with_force(1.0))

@@ -5,12 +5,14 @@ faces over the part's volume,
 
     B_I = 1/V sum over faces of n A N_I(middle of the face),
 
-the stabilised conforming nodal integration of J.-S. Chen, C.-T. Wu, S. Yoon and Y. You 2001, Int. J. Numer. Methods Eng.
-50:435, eq. 15, here on the parts of cells and not on nodal cells: no derivative of a shape function is needed, linear
-fields have their exact gradient, and what leaves one part enters the next, so that linear patches are exact. What
-squeezing costs is counted once a cell, from the mean of its parts (the pressure projection of J.-S. Chen, S. Yoon,
-H.-P. Wang and W. K. Liu 2000, Comput. Methods Appl. Mech. Eng. 181:117): about one constraint a node, without which
-nearly incompressible tissue locks.
+the stabilised conforming nodal integration of J.-S. Chen, C.-T. Wu, S. Yoon and Y. You 2001, Int. J. Numer. Methods
+Eng. 50:435, here on the parts of cells and not on nodal cells: no derivative of a shape function is needed, linear
+fields have their exact gradient, and what leaves one part enters the next, so that linear patches are exact. Means
+over halves of a cell miss a quarter of the square of what varies linearly over it, and tissue would bend too easily:
+what the parts of a whole cell differ by is stretched from their middles to the Gauss points. What squeezing costs is
+counted once a cell, from the mean of its parts (the pressure projection of J.-S. Chen, S. Yoon, H.-P. Wang and W. K. Liu
+2000, Comput. Methods Appl. Mech. Eng. 181:117): about one constraint a node, without which nearly incompressible tissue
+locks.
 
 Where a cut runs through a cell its parts are sorted by whether they see each other, each group a patch of its own, and
 a part sees to its faces from its own middle: a cut runs along the faces of parts, within half a cell of where it is.

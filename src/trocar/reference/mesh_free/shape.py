@@ -23,9 +23,7 @@ _SINGULAR = 1e-10  # of the sum of the weights: a pivot below it is rounding
 
 
 @njit(cache=True, nogil=True)
-def felt_in_cell(
-    cloud: Cloud, i: int, j: int, k: int, found: IntArray
-) -> int:  # pragma: no cover - compiled
+def felt_in_cell(cloud: Cloud, i: int, j: int, k: int, found: IntArray) -> int:  # pragma: no cover - compiled
     """Write the nodes whose support meets the cell (i, j, k), cuts or not; return how many."""
     nx, ny, nz = len(cloud.x), len(cloud.y), len(cloud.z)
     count = 0
@@ -143,7 +141,8 @@ def evaluate(
 
 @njit(cache=True, nogil=True)
 def _interval(lines: FloatArray, where: float) -> int:  # pragma: no cover - compiled
-    return min(max(np.searchsorted(lines, where, side="right") - 1, 0), len(lines) - 2)
+    below = int(np.searchsorted(lines, where, side="right")) - 1
+    return min(max(below, 0), len(lines) - 2)
 
 
 @njit(cache=True, nogil=True)

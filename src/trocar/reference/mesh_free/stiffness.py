@@ -57,7 +57,7 @@ class Pattern:
         return sp.csr_array(blocks.tocsr())
 
 
-def moduli_at_rest(layers: Sequence[Layer], weights: Sequence[float], *, prestress: bool) -> FloatArray:
+def moduli_at_rest(layers: Sequence[Layer], weights: FloatArray, *, prestress: bool) -> FloatArray:
     """Return A at rest of each layer times its weight, shape (layers, 9, 9); prestress is not weighted."""
     unit = np.eye(3)
     shearing = np.einsum("ik,jl->ijkl", unit, unit) + np.einsum("il,jk->ijkl", unit, unit)
@@ -78,7 +78,7 @@ def lumped_mass(patches: Patches, layers: Sequence[Layer], nodes: int) -> FloatA
     """
     density = np.array([layer.density for layer in layers])
     parts = density[np.repeat(patches.layer, np.diff(patches.part_start))] * patches.volume
-    return np.bincount(patches.keeper, parts, minlength=nodes)
+    return np.asarray(np.bincount(patches.keeper, parts, minlength=nodes), dtype=np.float64)
 
 
 @njit(cache=True, nogil=True)
