@@ -10,7 +10,7 @@ Eng. 50:435, here on the parts of cells and not on nodal cells: no derivative of
 fields have their exact gradient, and what leaves one part enters the next, so that linear patches are exact. Means
 over halves of a cell miss a quarter of the square of what varies linearly over it, and tissue would bend too easily:
 what the parts of a whole cell differ by is stretched from their middles to the Gauss points. What squeezing costs is
-counted once a cell, from the mean of its parts (the pressure projection of J.-S. Chen, S. Yoon, H.-P. Wang and W. K. Liu
+counted once a cell, from the mean of its parts (the pressure projection of J.-S. Chen, S. Yoon, H.-P. Wang, W. K. Liu
 2000, Comput. Methods Appl. Mech. Eng. 181:117): about one constraint a node, without which nearly incompressible tissue
 locks.
 
