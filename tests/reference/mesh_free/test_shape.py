@@ -92,7 +92,7 @@ def test_nodes_on_a_cut_are_doubled_and_each_copy_is_seen_from_its_side():
 
 
 def test_below_a_cut_the_block_is_whole():
-    whole, cut = cloud(), cloud(Cut(start=(0.010, 0.012), end=(0.014, 0.012), depth=0.001))
+    whole, cut = cloud(), cloud(Cut(start=(0.010, 0.0119), end=(0.014, 0.0119), depth=0.001))
     deep = whole.z[whole.z < -0.0012][-1]  # supports of nodes above this plane reach the cut
     below = [p for p in inner_points(150) if p[2] < deep]
     beside = [np.array([0.012, y, -0.0005]) for y in (0.0115, 0.0125)]

@@ -34,6 +34,7 @@ DILATION_AT_CUTS = 2.05
 
 _THIN = 0.1  # of the smallest tool's radius: a thinner layer stretches more than it bends
 _NEAR = 1e-7  # of the block's longest side: nearer nodes lie in a cut
+_SAME_PLACE = 1e-9  # of the block's size: rounding in where a copy is seen, far below _NEAR
 _APART = 4.0  # of that: by how much the copies of a node are moved apart when it is asked what is seen
 
 
@@ -191,3 +192,25 @@ def _doubled(places: FloatArray, frames: FloatArray, near: float) -> tuple[IntAr
         seen_at = np.concatenate([seen_at, seen_at[twice] - apart])
         seen_at[twice] += apart
     return parent, seen_at, copy
+
+
+def inherited(new: Cloud, old: Cloud, field: FloatArray) -> FloatArray:
+    """Return a field of a cloud's nodes, shape (n, 3), from that of the same nodes cut otherwise.
+
+    A copy takes over from the copy on its side; where a cut was joined, from the mean of both sides.
+    """
+    result = np.empty_like(new.places)
+    for root in range(len(old.x) * len(old.y) * len(old.z)):
+        candidates = _copies(old, root)
+        for node in _copies(new, root):
+            apart = np.linalg.norm(old.seen_at[candidates] - new.seen_at[node], axis=1)
+            nearest = apart <= apart.min() + _SAME_PLACE * np.abs(new.places[-1]).max()
+            result[node] = field[candidates[nearest]].mean(axis=0)
+    return result
+
+
+def _copies(cloud: Cloud, root: int) -> IntArray:
+    found = [root]
+    while (after := int(cloud.copy[found[-1]])) >= 0:
+        found.append(after)
+    return np.array(found)

@@ -20,15 +20,15 @@ from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
 from trocar.reference.arguments import check_step, checked_size, checked_support
 from trocar.reference.block import MeshSize
-from trocar.reference.footprint import footprint_points
 from trocar.reference.mesh_free.body import Body
-from trocar.reference.mesh_free.cloud import scatter
+from trocar.reference.mesh_free.cloud import inherited, scatter
 from trocar.reference.mesh_free.cut import Cut
 from trocar.reference.mesh_free.explicit import advance, critical_step
 from trocar.reference.mesh_free.implicit import AverageAcceleration
 from trocar.reference.mesh_free.large import equilibrium
 from trocar.reference.mesh_free.state import MeshFreeState
-from trocar.reference.parity import QUARTERS, fold, mirrored_lines
+from trocar.reference.mesh_free.top_face import TopFace
+from trocar.reference.parity import QUARTERS
 from trocar.reference.solver import choose_solver
 from trocar.reference.stress import Deformation
 from trocar.tissues import Linear, NeoHookean, Tissue
@@ -104,7 +104,7 @@ class MeshFree:
             mirrored=mirrored,
         )
         self._body = Body(cloud, tissue, self._support, choose_solver(solver), mirrored)
-        self._units: dict[Press, FloatArray] = {}
+        self._face = TopFace(self._body, self._size)
         self._responses: dict[Press, FloatArray] = {}
         self._equilibria: dict[Load, FloatArray] = {}
         self._steps: dict[float, AverageAcceleration] = {}
@@ -174,6 +174,27 @@ class MeshFree:
         left = list(self._cuts)
         left.remove(cut)
         return self._with_cuts(tuple(left))
+
+    def carried(self, state: MeshFreeState, of: MeshFree) -> MeshFreeState:
+        """Return the state of a model that differs in cuts alone, as this model has it: a cut or a seam in mid motion.
+
+        Args:
+            state: of the other model.
+            of: the other model.
+
+        Raises:
+            InputError: the models differ in more than cuts, or the state is not the other one's.
+        """
+        of._check_state(state)
+        mine, other = self._body.cloud, of._body.cloud
+        if not all(np.array_equal(here, there) for here, there in zip(mine[:3], other[:3], strict=True)):
+            raise InputError(
+                "of", "a model that differs in cuts alone", "one with other nodes", "use `cut` and `rejoin`"
+            )
+        displacement, velocity = (
+            inherited(mine, other, field) for field in (state.displacement, state.velocity)
+        )
+        return MeshFreeState(time=state.time, displacement=displacement, velocity=velocity)
 
     def _with_cuts(self, cuts: tuple[Cut, ...]) -> MeshFree:
         return MeshFree(
@@ -249,7 +270,7 @@ class MeshFree:
         """
         self._check_state(state)
         number = self.tissue.index(layer)
-        return self._interpolated(points, number, state.displacement)
+        return self._face.interpolated(points, number, state.displacement)
 
     def reaction(self, state: MeshFreeState, load: Load = ()) -> FloatArray:
         """Return the force of the supports on the block [N], shape (3,), at an equilibrium under a load."""
@@ -263,15 +284,6 @@ class MeshFree:
         self._check_state(state)
         return dict(zip(self.layer_names, self._body.deformations(state.displacement), strict=True))
 
-    def _interpolated(self, points: FloatArray, layer: int, field: FloatArray) -> FloatArray:
-        """Return a field of the nodes at points of a layer's upper face, shape (n, 3)."""
-        folded, images = fold(points, self._size)
-        if not self._body.mirrored:
-            return np.asarray(self._body.interpolation(np.asarray(points), layer) @ field)
-        found = self._body.interpolation(folded, layer) @ field
-        found[:, :2] *= 1 - 2 * images
-        return np.asarray(found)
-
     def _response(self, press: Press) -> FloatArray:
         if press not in self._responses:
             if len(self._responses) >= _KEPT_PRESSES:
@@ -281,36 +293,7 @@ class MeshFree:
         return self._responses[press]
 
     def _forces(self, load: Load) -> FloatArray:
-        """Return the nodal forces [N], shape (nodes, 3): shape functions integrated over each footprint."""
-        total = np.zeros_like(self.nodes)
-        for press in load:
-            total += press.force * self._unit(press.with_force(1.0))
-        return total
-
-    def _unit(self, press: Press) -> FloatArray:
-        if press not in self._units:
-            if len(self._units) >= _KEPT_PRESSES:
-                self._units.pop(next(iter(self._units)))
-            self._units[press] = self._integrated(press)
-        return self._units[press]
-
-    def _integrated(self, press: Press) -> FloatArray:
-        lines = self._body.cloud.x, self._body.cloud.y
-        if not self._body.mirrored:
-            points, shares = footprint_points(press, *lines)
-            return np.outer(self._body.interpolation(points, 0).T @ shares, press.force_vector)
-        middle = tuple(0.5 * side for side in self._size)
-        if press.tilt or not np.allclose((press.x, press.y), middle, rtol=0, atol=1e-9 * max(self._size)):
-            raise InputError(
-                "press",
-                f"an upright one at ({middle[0]:g}, {middle[1]:g}) m for a mirrored model",
-                press,
-                "leave `mirrored` out",
-            )
-        halves = zip(lines, self._size, strict=True)
-        points, shares = footprint_points(press, *(mirrored_lines(half, side) for half, side in halves))
-        spread = self._body.interpolation(fold(points, self._size)[0], 0).T @ shares
-        return np.outer(spread / _QUARTERS, press.force_vector)
+        return self._face.forces(load)
 
     def _check_state(self, state: MeshFreeState) -> None:
         if state.displacement.shape != self.nodes.shape:
@@ -318,7 +301,7 @@ class MeshFree:
                 "state",
                 f"{len(self.nodes)} nodes, as this model has",
                 f"{len(state.displacement)} nodes",
-                "cutting and rejoining make another model: begin from its own init() or static()",
+                "cutting and rejoining make another model: take the state over with `carried`",
             )
 
 
