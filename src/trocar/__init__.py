@@ -14,6 +14,8 @@ if TYPE_CHECKING:  # the same names for type checkers and editors
     from trocar.model import Press as Press
     from trocar.model import Support as Support
     from trocar.reference.fea import FEASolid as FEASolid
+    from trocar.reference.mesh_free.cut import Cut as Cut
+    from trocar.reference.mesh_free.mesh_free import MeshFree as MeshFree
     from trocar.reference.springs.mass_spring import MassSpring as MassSpring
     from trocar.study.cases.reading import load_case as load_case
     from trocar.study.compare import compare as compare
@@ -29,9 +31,11 @@ if TYPE_CHECKING:  # the same names for type checkers and editors
 __version__ = "0.1.0"
 
 _HOME = {  # public name: the module it lives in
+    "Cut": "trocar.reference.mesh_free.cut",
     "FEASolid": "trocar.reference.fea",
     "Layer": "trocar.tissues.layer",
     "MassSpring": "trocar.reference.springs.mass_spring",
+    "MeshFree": "trocar.reference.mesh_free.mesh_free",
     "Press": "trocar.model",
     "SolidMesh": "trocar.waves.mesh.solid_mesh",
     "StretchingWaves": "trocar.waves.stretch.stretching_waves",

@@ -22,13 +22,21 @@ def test_json_is_alone_on_stdout(capsys):
     assert json.loads(capsys.readouterr().out)["models"]["wave-solid"]["in_range"] is True
 
 
+def test_the_mesh_free_model_comes_near_the_finite_elements(capsys):
+    assert main(["compare", PRESS, "--models", "fea,mesh-free", "--json"]) == 0
+    models = json.loads(capsys.readouterr().out)["models"]
+    fea, free = models["fea"], models["mesh-free"]
+    for layer, depths in fea["max_deflection_mm"].items():
+        assert max(free["max_deflection_mm"][layer]) == pytest.approx(max(depths), rel=0.03)
+    assert free["in_range"] is True
+
+
 @pytest.mark.parametrize(
     ("arguments", "word"),
     [
         (["nothing.toml"], "nothing.toml"),
         ([PRESS, "--models", "fem"], "fem"),
         ([PRESS, "--models", ","], "at least one"),
-        ([PRESS, "--models", "mesh-free"], "not built yet"),
         ([], "'case'"),
     ],
 )

@@ -9,8 +9,9 @@ from sample_tissues import three_layers
 from trocar.model import Press
 from trocar.reference.block import MeshSize
 from trocar.reference.fea import FEASolid
+from trocar.reference.mesh_free import Cut, MeshFree
 from trocar.reference.springs.mass_spring import MassSpring, lattice_size
-from trocar.tissues import NeoHookean, Tissue
+from trocar.tissues import Layer, NeoHookean, Tissue
 from trocar.waves.membrane import WaveMembrane
 from trocar.waves.mesh.block import block_mesh, lines_around
 from trocar.waves.mesh.wave_mesh import WaveMesh
@@ -234,3 +235,63 @@ class TestMassSpring(LargeContract):
     def model(cls):
         around = (Press(x=0.03, y=0.03, radius=0.012, force=1.0),)
         return MassSpring(three_layers(), size=SIZE, support="base", around=around, mesh=lattice_size(1.5))
+
+
+class TestMeshFree(TissueModelContract):
+    # Average acceleration, as of the finite elements.
+    settled = 1e-2
+
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        around = (Press(x=0.026, y=0.031, radius=0.006, force=1.0),)
+        return MeshFree(
+            three_layers(), size=SIZE, support="base", around=around, resolution=0.6, stepping="implicit"
+        )
+
+
+class TestCutMeshFree(TestMeshFree):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        around = (Press(x=0.026, y=0.031, radius=0.006, force=1.0),)
+        cuts = (Cut(start=(0.02, 0.02), end=(0.04, 0.04), depth=0.004, lean=0.3),)
+        return MeshFree(
+            three_layers(),
+            size=SIZE,
+            support="base",
+            around=around,
+            resolution=0.6,
+            cuts=cuts,
+            stepping="implicit",
+        )
+
+
+class TestExplicitMeshFree(TissueModelContract):
+    """Thick soft layers: the stiffest mode of a thin stiff one asks for a thousand million steps."""
+
+    settled = 1e-3  # the lowest modes lose so much in two seconds
+
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        base = {"poisson_ratio": 0.4, "density": 1100.0, "loss_factor": 0.2, "loss_frequency": 50.0}
+        layers = tuple(
+            Layer(name=name, thickness=height, young_modulus=E, **base)
+            for name, height, E in (("epidermis", 4e-3, 4e3), ("dermis", 4e-3, 3e3), ("fat", 8e-3, 2e3))
+        )
+        around = (Press(x=0.03, y=0.03, radius=0.025, force=1.0),)
+        return MeshFree(Tissue(layers=layers), size=SIZE, support="base", around=around, resolution=0.5)
+
+
+class TestLargeMeshFree(TestLargeFEASolid):
+    """Without inertia: every step is an equilibrium."""
+
+    settled = 1e-6
+
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        tissue = Tissue(layers=tuple(replace(layer, law=NeoHookean()) for layer in three_layers().layers))
+        around = (Press(x=0.03, y=0.03, radius=0.012, force=1.0),)
+        return MeshFree(tissue, size=SIZE, support="base", around=around, resolution=0.5, massless=True)

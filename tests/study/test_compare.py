@@ -106,7 +106,6 @@ def test_progress_is_told_to_the_end():
     [
         ((), "at least one"),
         (("fem",), "fem"),
-        (("mesh-free",), "not built yet"),
     ],
 )
 def test_models_that_are_not_there_are_refused(names, word):
@@ -202,6 +201,23 @@ def test_finite_elements_follow_large_deformation_and_waves_beside_them_say_they
     small = compare(replace(case, tissue=case.tissue.linearised), ("fea",), builders=QUICK_MODELS)["fea"]
     assert depths[1] / small.deflection["pad"][1] == pytest.approx(1, abs=0.05)
     assert abs(depths.max() / small.deflection["pad"].max() - 1) > 0.01
+
+
+def test_the_mesh_free_model_follows_large_deformation_too():
+    case = pressed_hard(NeoHookean())
+    result = compare(case, ("fea", "mesh-free"), builders=QUICK_MODELS)
+    elements, free = result["fea"], result["mesh-free"]
+    assert free.large_deformation
+    assert free.in_range
+    assert free.block.max() == pytest.approx(elements.block.max(), rel=0.04)  # two coarse models
+
+
+def test_explicit_time_that_would_take_days_is_refused():
+    layer = replace(pressed_hard(NeoHookean()).tissue.layers[0], thickness=1e-4, loss_factor=0.2)
+    case = replace(pressed_hard(NeoHookean()), tissue=Tissue(layers=(layer,)))
+    case = replace(case, sampling=replace(case.sampling, dynamic=True))
+    with pytest.raises(InputError, match="explicit time"):
+        compare(case, ("mesh-free",), builders=QUICK_MODELS)
 
 
 def test_tools_that_do_not_keep_their_ratio_are_followed_together():

@@ -8,15 +8,14 @@ load needs (`large`, `moving`): layers perfectly bonded, dead traction.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
-from math import inf, isfinite
+from math import inf
 from typing import Generic
 
 import numpy as np
 
-from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
+from trocar.reference.arguments import check_step
 from trocar.reference.discretisation import Discretisation
 from trocar.reference.domain import wholes
 from trocar.reference.forces import NodalForces
@@ -164,12 +163,7 @@ class BlockModel(Generic[G]):
             InputError: dt is not above 0, the loads hold unequally many presses, or one is off the block.
             SolverError: the equations could not be solved accurately.
         """
-        if not (isfinite(dt) and dt > 0):
-            raise InputError("dt", "a finite time above 0", dt)
-        if len(load0) != len(load1):
-            raise InputError(
-                "load1", f"{len(load0)} presses, as in load0", len(load1), "give an idle press force 0"
-            )
+        check_step(load0, load1, dt)
         force0, force1 = self._forces(load0), self._forces(load1)
         if self._large and self._massless:  # without memory, every instant is an equilibrium
             return replace(self.static(load1), time=state.time + dt)
@@ -275,29 +269,6 @@ def _subdivided(lines: FloatArray) -> FloatArray:
     """Put points between grid lines, so that the largest deflection between two nodes is not missed."""
     part = np.arange(_POINTS_PER_ELEMENT) / _POINTS_PER_ELEMENT
     return np.append((lines[:-1, None] + part * np.diff(lines)[:, None]).ravel(), lines[-1])
-
-
-def checked_size(size: Sequence[float]) -> tuple[float, float]:
-    """Return the sides [m].
-
-    Raises:
-        InputError: they are not two, or not possible.
-    """
-    if len(size) != 2 or not all(isfinite(side) and side > 0 for side in size):
-        raise InputError("size", "two finite sides above 0 [m]", size)
-    return float(size[0]), float(size[1])
-
-
-def checked_support(support: Support | str) -> Support:
-    """Return the support of this name.
-
-    Raises:
-        InputError: there is none.
-    """
-    try:
-        return Support(support)
-    except ValueError:
-        raise InputError("support", f"one of {', '.join(Support)}", support) from None
 
 
 def central_press(size: tuple[float, float]) -> Load:

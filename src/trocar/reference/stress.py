@@ -78,7 +78,7 @@ def largest_cauchy_mises(
 
 @dataclass(frozen=True, kw_only=True)
 class Deformation:
-    """How far a layer is deformed at the 2 x 2 x 2 Gauss points of its elements.
+    """How far a layer is deformed at the points of the quadrature.
 
     Args:
         stretch: smallest and largest principal stretch [1].
@@ -88,21 +88,22 @@ class Deformation:
     stretch: tuple[float, float]
     volume_ratio: tuple[float, float]
 
+    @classmethod
+    def of(cls, gradient: FloatArray) -> Deformation:
+        """Return what deformation gradients, shape (n, 3, 3), amount to."""
+        stretch = np.linalg.svd(gradient, compute_uv=False)
+        volume = np.linalg.det(gradient)
+        return cls(
+            stretch=(float(stretch.min()), float(stretch.max())),
+            volume_ratio=(float(volume.min()), float(volume.max())),
+        )
+
 
 def deformations(bricks: Bricks, layers: tuple[Layer, ...], fields: list[FloatArray]) -> list[Deformation]:
     """Return how far each layer is deformed; arguments as in `largest_von_mises`."""
-    found = []
-    for number in range(len(layers)):
-        gradient = np.concatenate(_gradients(bricks, number, fields))
-        stretch = np.linalg.svd(gradient, compute_uv=False)
-        volume = np.linalg.det(gradient)
-        found.append(
-            Deformation(
-                stretch=(float(stretch.min()), float(stretch.max())),
-                volume_ratio=(float(volume.min()), float(volume.max())),
-            )
-        )
-    return found
+    return [
+        Deformation.of(np.concatenate(_gradients(bricks, number, fields))) for number in range(len(layers))
+    ]
 
 
 def _gradients(bricks: Bricks, layer: int, fields: list[FloatArray]) -> list[FloatArray]:

@@ -67,7 +67,7 @@ def compare(
         watch: told the model and the share of it done, 0 to 1, as the work goes on.
 
     Raises:
-        InputError: a name is unknown, or that model is not built yet or takes no rigid tip.
+        InputError: a name is unknown, or that model takes no rigid tip.
         SolverError: a model could not be solved.
     """
     names = usual_models(case) if models is None else check_names(models)
