@@ -81,8 +81,12 @@ def equilibria(support: str, resolutions: list[float]) -> None:
                 f"{process_time() - began:6.1f}",
                 flush=True,
             )
-        slope = np.polyfit(np.log(resolutions[1:]), np.log(np.abs([error[1] for error in errors[1:]])), 1)[0]
-        print(f"order of the mean's error from {resolutions[1]:g} on: {-slope:.1f}")
+        means = np.array([error[1] for error in errors])
+        if (means > 0).any() and (means < 0).any():
+            print("the mean's error changes its sign: no order is read from it")
+        else:
+            slope = np.polyfit(np.log(resolutions[1:]), np.log(np.abs(means[1:])), 1)[0]
+            print(f"order of the mean's error from {resolutions[1]:g} on: {-slope:.1f}")
 
 
 def tap(model: TissueModel[Any], dt: float, count: int, every: int) -> FloatArray:

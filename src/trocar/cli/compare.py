@@ -26,8 +26,8 @@ def compare(
     models: Annotated[
         str | None,
         typer.Option(
-            help="Which models, separated by commas: wave-membrane, wave-solid, wave-mesh, fea, mass-spring. Default: "
-            "wave-solid,fea; with a rigid tip wave-solid,wave-membrane."
+            help="Which models, separated by commas: wave-membrane, wave-solid, wave-mesh, fea, mass-spring, mesh-free. "
+            "Default: wave-solid,fea; with a rigid tip wave-solid,wave-membrane."
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON alone on stdout.")] = False,

@@ -19,6 +19,7 @@ from trocar.errors import TrocarError
 from trocar.model import FloatArray, Load, Press
 from trocar.reference.block import MeshSize
 from trocar.reference.fea import FEASolid
+from trocar.reference.mesh_free.mesh_free import MeshFree, Stepping
 from trocar.reference.springs.mass_spring import MassSpring, lattice_size
 from trocar.study.deflection import deflections, search_points
 from trocar.study.half_sine import DURATION, half_sine
@@ -119,6 +120,18 @@ def _springs(per_radius: float, dent: Dent, massless: bool) -> Any:
     )
 
 
+def _mesh_free(resolution: float, dent: Dent, massless: bool) -> Any:
+    return MeshFree(
+        dent.tissue,
+        size=dent.size,
+        support=dent.support,
+        around=dent.load(1.0),
+        resolution=resolution,
+        stepping=Stepping.EXPLICIT if dent.tissue.large_deformation else Stepping.IMPLICIT,
+        massless=massless,
+    )
+
+
 def _ladder(
     build: Callable[[Any, Dent, bool], Any], words: str, rungs: Sequence[float]
 ) -> list[tuple[str, Build]]:
@@ -131,6 +144,7 @@ LADDERS: Mapping[str, list[tuple[str, Build]]] = {
     "wave-mesh": _ladder(_mesh, "times coarser", (3.0, 2.0, 1.5, 1.0)),
     "fea": _ladder(_fea, "elements a radius", (0.75, 1.0, 1.5, 2.0, 3.0)),
     "mass-spring": _ladder(_springs, "boxes a radius", (1.5, 2.0, 3.0, 4.0, 6.0, 8.0)),
+    "mesh-free": _ladder(_mesh_free, "times as fine", (0.6, 0.8, 1.0, 1.5, 2.0)),
 }
 _LINEAR_ONLY = ("wave-mesh",)
 
