@@ -26,7 +26,7 @@ def compare(
     models: Annotated[
         str | None,
         typer.Option(
-            help="Which models, separated by commas: wave-membrane, wave-solid, wave-mesh, fea, mass-spring, mesh-free. "
+            help="Models, separated by commas: wave-membrane, wave-solid, wave-mesh, fea, mass-spring, mesh-free. "
             "Default: wave-solid,fea; with a rigid tip wave-solid,wave-membrane."
         ),
     ] = None,
