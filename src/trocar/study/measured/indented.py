@@ -18,11 +18,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 from scipy.optimize import least_squares
 
 from trocar.model import FloatArray
 from trocar.study.measured.limbs import Indentations
 from trocar.study.measured.stacked import punch_compliance
+
+Rows = npt.NDArray[np.bool_]
+"""Whether a trial is meant, shape (n,)."""
 
 POISSON = 0.49
 PUBLISHED = 0.254
@@ -73,7 +77,7 @@ class LimbResults:
     """
 
     limbs: Indentations
-    judged: FloatArray
+    judged: Rows
     people: tuple[int, int]
     linear: ForetoldLimbs
     exponential: ForetoldLimbs
@@ -103,13 +107,15 @@ def foretell_limbs(limbs: Indentations, watch: Callable[[float], None] = lambda 
     numbers = np.column_stack([np.log(limbs.indentation), np.log(limbs.area), np.log(limbs.thickness)])
     sites = (np.array(limbs.sites)[:, None] == np.unique(limbs.sites)).astype(np.float64)[:, 1:]
     one = np.ones((len(limbs.force), 1))
+    with_site = np.exp(
+        _regress(np.column_stack([_quadratic(numbers), sites]), np.log(limbs.force), fits)
+    )
+    with_person = with_site * np.exp(_of_the_same_person(limbs, np.log(limbs.force / with_site)))
     ways = (
         ("a constant", np.exp(_regress(one, np.log(limbs.force), fits))),
         ("regression", np.exp(_regress(_quadratic(numbers), np.log(limbs.force), fits))),
-        (
-            "regression that knows the site",
-            np.exp(_regress(np.column_stack([_quadratic(numbers), sites]), np.log(limbs.force), fits)),
-        ),
+        ("regression that knows the site", with_site),
+        ("regression that knows site and person", with_person),
         ("linear layers, each person's own stiffness", own),
     )
     apart, pairs = _neighbours(limbs, numbers)
@@ -128,7 +134,7 @@ def foretell_limbs(limbs: Indentations, watch: Callable[[float], None] = lambda 
     )
 
 
-def _fit(limbs: Indentations, rows: FloatArray, *, bends: bool) -> tuple[FloatArray, float]:
+def _fit(limbs: Indentations, rows: Rows, *, bends: bool) -> tuple[FloatArray, float]:
     """Return the shear moduli [Pa] and b. One common factor is found in closed form, the mean of what is left."""
     start = np.log(_START)
     indentation, strain = limbs.indentation[rows], limbs.strain[rows]
@@ -149,7 +155,7 @@ def _fit(limbs: Indentations, rows: FloatArray, *, bends: bool) -> tuple[FloatAr
         return np.asarray(residual - residual.mean())
 
     ends = np.array([_FURTHEST, _FURTHEST, _STEEPEST][: 2 + bends])
-    found = least_squares(centred, np.zeros(2 + bends), bounds=(-ends, ends), diff_step=1e-3, xtol=1e-4).x
+    found = least_squares(centred, np.zeros(2 + bends), bounds=(-ends, ends), diff_step=np.array(1e-3), xtol=1e-4).x
     moduli = np.exp(start + np.append(found[:2], 0.0) - left(found).mean())
     return np.asarray(moduli), float(found[2]) if bends else 0.0
 
@@ -178,7 +184,7 @@ def _quadratic(numbers: FloatArray) -> FloatArray:
     return np.column_stack([np.ones(len(scaled)), scaled, scaled[:, rows] * scaled[:, columns]])
 
 
-def _regress(features: FloatArray, wanted: FloatArray, rows: FloatArray) -> FloatArray:
+def _regress(features: FloatArray, wanted: FloatArray, rows: Rows) -> FloatArray:
     solution = np.linalg.lstsq(features[rows], wanted[rows], rcond=None)[0]
     return np.asarray(features @ solution)
 
@@ -200,7 +206,7 @@ def _neighbours(limbs: Indentations, numbers: FloatArray) -> tuple[float, int]:
     return float(np.expm1(np.median(apart) / np.sqrt(2))), len(apart)
 
 
-def _scored(name: str, force: FloatArray, limbs: Indentations, fits: FloatArray) -> ForetoldLimbs:
+def _scored(name: str, force: FloatArray, limbs: Indentations, fits: Rows) -> ForetoldLimbs:
     error = np.abs(force / limbs.force - 1)
     return ForetoldLimbs(
         name=name,

@@ -7,7 +7,7 @@ rigid punch of radius a on a half-space presses with a pressure whose transform 
 
     indentation / force = 1/(2 pi) integral of C(k) (sin(k a)/(k a))^2 k dk,
 
-exact on a half-space (I. N. Sneddon 1965, Int. J. Eng. Sci. 3:47) and never too soft otherwise by more than second order.
+exact on a half-space (I. N. Sneddon 1965, Int. J. Eng. Sci. 3:47); elsewhere off by the square of what the pressure is.
 """
 
 from __future__ import annotations
