@@ -34,7 +34,9 @@ _RADIAL, _AXIAL = 6, 4  # elements: twice as many change the force by less than 
 _LONGEST = 0.04  # of the height: compression in one step
 _SHORTEST = 0.001
 _TOLERANCE = 1e-9  # of the force on the platen, what may be out of balance
-_SPRING = 5000.0  # of mu times the radius over the number of nodes at the side [1]: what is past is a hundredth of h
+_SPRING = (
+    20000.0  # of mu times the radius over the number of nodes at the side [1]: what is past stays below h/200
+)
 _ORDER = 5  # what 3 x 3 Gauss points integrate exactly
 _UNIT = np.eye(3).ravel()
 

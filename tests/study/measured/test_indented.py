@@ -62,4 +62,6 @@ def test_real_limbs_are_foretold_as_documented() -> None:
     assert found.people == (48, 47)
     assert 0.25 < found.linear.median < 0.35
     assert found.exponential.median < found.linear.median
-    assert by_name["regression that knows site and person"] > PUBLISHED / 2  # out of reach for what knows less
+    assert (
+        by_name["regression that knows site and person"] > PUBLISHED / 2
+    )  # out of reach for what knows less

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 from measured_sets import measured_folder
 from trocar.study.measured.relaxation import FOLDER, Hold, read_holds

@@ -107,9 +107,7 @@ def foretell_limbs(limbs: Indentations, watch: Callable[[float], None] = lambda 
     numbers = np.column_stack([np.log(limbs.indentation), np.log(limbs.area), np.log(limbs.thickness)])
     sites = (np.array(limbs.sites)[:, None] == np.unique(limbs.sites)).astype(np.float64)[:, 1:]
     one = np.ones((len(limbs.force), 1))
-    with_site = np.exp(
-        _regress(np.column_stack([_quadratic(numbers), sites]), np.log(limbs.force), fits)
-    )
+    with_site = np.exp(_regress(np.column_stack([_quadratic(numbers), sites]), np.log(limbs.force), fits))
     with_person = with_site * np.exp(_of_the_same_person(limbs, np.log(limbs.force / with_site)))
     ways = (
         ("a constant", np.exp(_regress(one, np.log(limbs.force), fits))),
@@ -155,7 +153,9 @@ def _fit(limbs: Indentations, rows: Rows, *, bends: bool) -> tuple[FloatArray, f
         return np.asarray(residual - residual.mean())
 
     ends = np.array([_FURTHEST, _FURTHEST, _STEEPEST][: 2 + bends])
-    found = least_squares(centred, np.zeros(2 + bends), bounds=(-ends, ends), diff_step=np.array(1e-3), xtol=1e-4).x
+    found = least_squares(
+        centred, np.zeros(2 + bends), bounds=(-ends, ends), diff_step=np.array(1e-3), xtol=1e-4
+    ).x
     moduli = np.exp(start + np.append(found[:2], 0.0) - left(found).mean())
     return np.asarray(moduli), float(found[2]) if bends else 0.0
 

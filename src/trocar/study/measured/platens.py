@@ -22,7 +22,7 @@ from trocar.tissues.law import Ogden
 
 EXPONENTS = (1.0, 2.0, 3.0, 4.5)
 _STRAINS = np.concatenate([[0.005], np.linspace(0.035, 0.665, 19), [0.67]])
-_BULK = 1000.0  # of mu: silicone hardly changes its volume, and ten times more changes the force by less than 0.5 %
+BULK = 1000.0  # of mu: silicone hardly changes its volume
 
 
 class Faces(StrEnum):
@@ -66,12 +66,15 @@ class Platens:
         return (3.0 if faces is Faces.FREE else self.stiffness) * strain
 
 
-def platens(shape: float, watch: Callable[[float], None] = lambda _share: None) -> Platens:
+def platens(
+    shape: float, watch: Callable[[float], None] = lambda _share: None, *, bulk: float = BULK
+) -> Platens:
     """Compute the table of one shape of disc.
 
     Args:
         shape: radius over height.
         watch: told the share that is done.
+        bulk: modulus over mu of the held disc [1].
 
     Raises:
         SolverError: the disc could not be followed to two thirds of its height.
@@ -83,7 +86,7 @@ def platens(shape: float, watch: Callable[[float], None] = lambda _share: None) 
             height=1.0,
             law=Ogden(terms=((1.0, exponent),)),
             shear_modulus=1.0,
-            bulk_modulus=_BULK,
+            bulk_modulus=bulk,
             bonded=True,
         )
         curve = disc.press(_STRAINS)
