@@ -21,6 +21,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares
 
+from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.study.measured.limbs import Indentations
 from trocar.study.measured.stacked import punch_compliance
@@ -35,6 +36,7 @@ PUBLISHED = 0.254
 _START = (30e3, 2e3, 5e3)  # shear moduli of skin, fat, muscle [Pa]
 _FURTHEST = np.log(1e3)  # each of them may leave where it began by so much
 _STEEPEST = 30.0  # b
+_FEWEST_PEOPLE, _FEWEST_TRIALS = 4, 20
 _NEAR = 0.7  # how far apart two trials may lie to count as alike [standard deviations]
 
 
@@ -95,8 +97,17 @@ def foretell_limbs(limbs: Indentations, watch: Callable[[float], None] = lambda 
     Args:
         limbs: the trials.
         watch: told the share that is done.
+
+    Raises:
+        InputError: there are too few.
     """
     people = np.unique(limbs.subjects)
+    if len(people) < _FEWEST_PEOPLE or len(limbs.force) < _FEWEST_TRIALS:
+        raise InputError(
+            "limbs",
+            f"at least {_FEWEST_PEOPLE} people and {_FEWEST_TRIALS} trials with every thickness",
+            f"{len(people)} and {len(limbs.force)}",
+        )
     fits = np.isin(limbs.subjects, people[::2])
     linear = _fit(limbs, fits, bends=False)
     watch(0.35)

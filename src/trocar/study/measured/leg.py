@@ -47,6 +47,7 @@ def run_leg(sets: MeasuredSets, watch: Watch = lambda _what, _share: None) -> Me
     """Foretell whatever the sets hold.
 
     Raises:
+        InputError: a set holds too little.
         SolverError: a disc could not be computed.
     """
     began = perf_counter()

@@ -21,7 +21,7 @@ from trocar.study.measured.homogeneous import uniaxial
 from trocar.tissues.law import Ogden
 
 EXPONENTS = (1.0, 2.0, 3.0, 4.5)
-_STRAINS = np.concatenate([[0.005], np.linspace(0.035, 0.665, 19), [0.67]])
+STRAINS = np.concatenate([[0.005], np.linspace(0.035, 0.665, 19), [0.67]])
 BULK = 1000.0  # of mu: silicone hardly changes its volume
 
 
@@ -58,8 +58,8 @@ class Platens:
             return -uniaxial(Ogden(terms=((1.0, exponent),)), 1.0, 1.0 - strain)
         within = float(np.clip(exponent, EXPONENTS[0], EXPONENTS[-1]))
         at_exponent = CubicSpline(EXPONENTS, self.table)(within)
-        shares = PchipInterpolator(_STRAINS, at_exponent / _STRAINS)  # near rest nearly constant
-        return np.asarray(shares(np.clip(strain, _STRAINS[0], _STRAINS[-1])) * strain)
+        shares = PchipInterpolator(STRAINS, at_exponent / STRAINS)  # near rest nearly constant
+        return np.asarray(shares(np.clip(strain, STRAINS[0], STRAINS[-1])) * strain)
 
     def linear_force(self, faces: Faces, strain: FloatArray) -> FloatArray:
         """Return what a linear model answers, of mu and area [1], shape (n,)."""
@@ -89,7 +89,7 @@ def platens(
             bulk_modulus=bulk,
             bonded=True,
         )
-        curve = disc.press(_STRAINS)
+        curve = disc.press(STRAINS)
         if curve.stopped:
             raise SolverError(
                 f"a bonded disc with Ogden's exponent {exponent:g} could be pressed by "

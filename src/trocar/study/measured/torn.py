@@ -2,8 +2,8 @@
 
 For each tissue an Ogden law of one term and a fibre law (a neo-Hookean matrix with fibres along the strip, stiffening
 exponentially) are fitted to the geometric mean of the strips of four animals, up to the stretch that all five bear:
-animals differ by factors, and the stiffest shall not count for all. The laws stand beside that mean itself, which no law
-fitted to it can be expected to beat.
+animals differ by factors, and the stiffest shall not count for all. The laws stand beside that mean itself, which no
+law fitted to it can be expected to beat.
 """
 
 from __future__ import annotations

@@ -41,8 +41,8 @@ def measured_pictures(leg: MeasuredLeg) -> Mapping[str, Picture]:
             Picture(
                 name="measured-platens",
                 alt=platens_alt(leg.phantoms),
-                caption="Silicone discs, specimen B, of which nothing was fitted. Shaded: the compressions to which specimen "
-                "A was fitted. A band goes from faces that slide to faces that are held (its line).",
+                caption="Silicone discs, specimen B, of which nothing was fitted. Shaded: the compressions to which "
+                "specimen A was fitted. A band goes from faces that slide to faces that are held (its line).",
                 figure=platens_figure(leg.phantoms),
             ),
             Picture(
@@ -57,8 +57,8 @@ def measured_pictures(leg: MeasuredLeg) -> Mapping[str, Picture]:
             Picture(
                 name="measured-limbs",
                 alt=limbs_alt(leg.limbs),
-                caption="Limbs of people that nothing was fitted to. Grey: within a quarter. Right: dashed, the error published "
-                "for a two-spring model; dotted, half of it.",
+                caption="Limbs of people that nothing was fitted to. Grey: within a quarter. Right: dashed, the error "
+                "published for a two-spring model; dotted, half of it.",
                 figure=limbs_figure(leg.limbs),
             )
         )
@@ -104,9 +104,9 @@ def measured_parts(leg: MeasuredLeg) -> tuple[Part, ...]:
         parts.append(
             Part(
                 title="Silicone between platens",
-                lead="Discs of 50 mm by 30 mm pressed to a third of their height. Each law is fitted to one specimen up to "
-                "30 % and foretells the rest and the other specimen. Between faces that slide the answer is closed; between "
-                "faces that are held it is finite elements. The truth lies between.",
+                lead="Discs of 50 mm by 30 mm pressed to a third of their height. Each law is fitted to one specimen "
+                "up to 30 % and foretells the rest and the other specimen. Where faces slide the answer is closed, where "
+                "they are held it is finite elements. The truth lies between.",
                 pictures=("measured-platens", "measured-growth"),
                 tables=tuple(tables),
             )
@@ -134,8 +134,8 @@ def measured_parts(leg: MeasuredLeg) -> tuple[Part, ...]:
         parts.append(
             Part(
                 title="Beef that relaxes",
-                lead="A Prony series, the law by which a layer remembers, fitted to one day's holds through each test's own "
-                "ramp, foretells another day's.",
+                lead="A Prony series, the law by which a layer remembers, fitted to one day's holds through each "
+                "test's own ramp, foretells another day's.",
                 pictures=("measured-holds",),
                 tables=(measured_tables.hold_table(leg.holds),),
             )

@@ -88,7 +88,7 @@ def growth_table(results: PhantomResults) -> Table:
         name = str(model) if model is Model.LINEAR else f"{model}, faces {FACES[faces]}"
         rows.append((name, *(f"{100 * share:+.1f} %".replace("-", "−") for share in growth)))
     return Table(
-        caption="Predicted over measured load, less one, of specimen B at a compression; the median of all compositions.",
+        caption="Predicted over measured load, less one, of specimen B at a compression: median of all compositions.",
         head=("law", *(percent(strain) for strain in GROWTH_STRAINS)),
         rows=tuple(rows),
         numeric=tuple(range(1, len(GROWTH_STRAINS) + 1)),
@@ -129,9 +129,9 @@ def limb_table(results: LimbResults) -> Table:
         head=("foretold from thicknesses, probe and indentation by", "median, fitted", "median", "mean"),
         rows=tuple(rows),
         numeric=(1, 2, 3),
-        note=f"Fitted to {fitted} other people. Linear layers: shear moduli of skin, fat and muscle {moduli} kPa, the same "
-        f"everywhere. Exponential layers: b = {three(results.steepness)}; below zero they soften, which no tissue "
-        "does: an operator presses until a force is reached, so indentation tells little of it. "
+        note=f"Fitted to {fitted} other people. Linear layers: shear moduli of skin, fat and muscle {moduli} kPa, "
+        f"the same everywhere. Exponential layers: b = {three(results.steepness)}; below zero they soften, which no "
+        "tissue does: an operator presses until a force is reached, so indentation tells little of it. "
         f"The last row is the median over {results.pairs} pairs, over √2. Trials without all thicknesses are left out: "
         f"{results.limbs.incomplete}.",
     )
@@ -159,9 +159,9 @@ def strip_table(strips: Sequence[ForetoldStrip]) -> Table:
             for strip in strips
         ),
         numeric=(1, 2, 3, 4, 5),
-        note="Root mean square difference over root mean square stress. The mean (geometric) of the other animals is no law: "
-        "what a law adds to its error is the law's, the rest is the animal's. The last column compares those animals "
-        "with each other at the largest stretch.",
+        note="Root mean square difference over root mean square stress. The (geometric) mean of the other animals is "
+        "no law: what a law adds to its error is the law's, the rest is the animal's. The last column compares those "
+        "animals with each other at the largest stretch.",
     )
 
 
@@ -189,10 +189,10 @@ def hold_table(holds: ForetoldHolds) -> Table:
             for moment, measured, foretold, spread in rows
         ),
         numeric=(0, 1, 2, 3, 4),
-        note=f"Fitted to {holds.counts[0]} tests: {series}, over the long-term modulus; force as indentation to the power "
-        f"{holds.power:.2f}. Root mean square error of a single test's course: {three(holds.fitted)} fitted, "
-        f"{three(holds.judged)} foretold, {three(holds.mean_curve)} of the mean curve of the fitted day. Ten seconds say "
-        "nothing of slower branches.",
+        note=f"Fitted to {holds.counts[0]} tests: {series}, over the long-term modulus; force as indentation to the "
+        f"power {holds.power:.2f}. Root mean square error of a single test's course: {three(holds.fitted)} fitted, "
+        f"{three(holds.judged)} foretold, {three(holds.mean_curve)} of the mean curve of the fitted day. Ten seconds "
+        "say nothing of slower branches.",
     )
 
 
@@ -223,8 +223,8 @@ def rubber_table(laws: Sequence[FittedRubber]) -> Table:
         ),
         numeric=(1, 2, 3, 4, 5, 6),
         note="Root mean square difference over root mean square stress; the median is of relative errors. They are two "
-        "rubbers. Ogden's law of 1972 was fitted to Treloar's tension, shear and balloon together; tension alone does not "
-        "say what two directions do.",
+        "rubbers. Ogden's law of 1972 was fitted to Treloar's tension, shear and balloon together; tension alone does "
+        "not say what two directions do.",
     )
 
 

@@ -49,8 +49,8 @@ def strips_alt(strips: Sequence[ForetoldStrip]) -> str:
     """Return what the figure shows, in words."""
     errors = "; ".join(f"{strip.tissue} {100 * strip.errors['Ogden']:.0f} %" for strip in strips)
     return (
-        "Stress against stretch of a sow's tissues: animals lie factors apart, laws run through their middle. Error on the "
-        f"animal that was not fitted: {errors}."
+        "Stress against stretch of a sow's tissues: animals lie factors apart, laws run through their middle. Error on "
+        f"the animal that was not fitted: {errors}."
     )
 
 
@@ -87,6 +87,6 @@ def holds_figure(holds: ForetoldHolds) -> Figure:
 def holds_alt(holds: ForetoldHolds) -> str:
     """Return what the figure shows, in words."""
     return (
-        f"Force falls to {holds.measured[-1]:.2f} of its peak in eight seconds, foretold {holds.foretold[-1]:.2f}; single "
-        f"tests differ from what is foretold of them by {holds.judged:.3f}, root mean square."
+        f"Force falls to {holds.measured[-1]:.2f} of its peak in eight seconds, foretold {holds.foretold[-1]:.2f}; "
+        f"single tests differ from what is foretold of them by {holds.judged:.3f}, root mean square."
     )

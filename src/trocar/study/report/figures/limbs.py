@@ -35,7 +35,7 @@ def limbs_figure(results: LimbResults) -> Figure:
     ways = (results.linear, results.exponential, *results.baselines)
     names = [way.name.replace(", each", ",\neach").replace(" that knows", "\nthat knows") for way in ways]
     places = np.arange(len(ways))[::-1]
-    colours = [BLUE, BLUE, *[ORANGE] * len(results.baselines)]
+    colours = [BLUE if "layers" in way.name else ORANGE for way in ways]
     right.barh(places, [100 * way.median for way in ways], color=colours, height=0.6)
     for place, way in zip(places, ways, strict=True):
         right.text(100 * way.median + 0.4, place, f"{100 * way.median:.1f}", va="center", fontsize=8)
@@ -52,7 +52,7 @@ def limbs_alt(results: LimbResults) -> str:
     """Return what the figure shows, in words."""
     best = min(results.baselines, key=lambda way: way.median)
     return (
-        f"Foretold against measured force for {int(results.judged.sum())} trials: a wide cloud about the diagonal. Median "
-        f"error {100 * results.linear.median:.0f} % for linear layers; the best of all, {best.name}, has "
+        f"Foretold against measured force for {int(results.judged.sum())} trials: a wide cloud about the diagonal. "
+        f"Median error {100 * results.linear.median:.0f} % for linear layers; the best of all, {best.name}, has "
         f"{100 * best.median:.0f} %. Lines mark the published {100 * PUBLISHED:.1f} % and half of it."
     )

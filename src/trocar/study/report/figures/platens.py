@@ -65,9 +65,9 @@ def platens_alt(results: PhantomResults) -> str:
         for model in (Model.LINEAR, Model.NEO_HOOKEAN)
     )
     return (
-        "Load against compression of silicone discs rises gently to 30 % and steeply beyond. Up to there every law meets "
-        f"the measured line; beyond, a straight line stays far below (error {linear:.0f} %), neo-Hookean with held faces "
-        f"follows it within {held:.0f} %."
+        "Load against compression of silicone discs rises gently to 30 % and steeply beyond. Up to there every law "
+        f"meets the measured line; beyond, a straight line stays far below (error {linear:.0f} %), neo-Hookean with "
+        f"held faces follows it within {held:.0f} %."
     )
 
 
