@@ -7,6 +7,7 @@ import re
 from xml.etree import ElementTree
 
 import pytest
+from matplotlib.figure import Figure
 
 from measured_sets import rough_platens, write_limbs, write_rubber, write_small_sets
 from small_study import LEDGER
@@ -14,8 +15,10 @@ from trocar.errors import InputError
 from trocar.study.measured import pressed
 from trocar.study.measured.leg import run_leg
 from trocar.study.measured.sets import read_sets
+from trocar.study.report.figures.animation import Moving
 from trocar.study.report.measured_section import measured_parts, measured_pictures
 from trocar.study.report.page import report_page
+from trocar.study.report.picture import Picture
 from trocar.study.writing import results
 from trocar.study.writing.folder import is_study
 from trocar.study.writing.measured_results import measured_results
@@ -24,6 +27,15 @@ from trocar.study.writing.results import write_study
 NAMES = (
     "measured-platens", "measured-growth", "measured-limbs", "measured-strips", "measured-holds", "measured-rubber",
 )  # fmt: skip
+
+STILL = Moving(gif=b"", still=b"", frames=0)
+
+
+class Blanks(dict[str, Picture]):
+    """Pictures of which those that are not there are blank: the study's own take long to draw."""
+
+    def __missing__(self, name: str) -> Picture:
+        return Picture(name=name, alt="Nothing.", caption="Nothing.", figure=Figure())
 
 
 @pytest.fixture(scope="module")
@@ -65,9 +77,9 @@ def test_tables_say_numbers_that_are_there(leg):
     assert rubber["neo-Hookean"][2] == "400"  # kPa, what it was made with
 
 
-def test_the_page_has_the_section_only_where_there_is_a_leg(study, drawn, moving, leg, third):
-    without = report_page(study, drawn, moving, ledger=LEDGER)
-    page = report_page(study, {**drawn, **third}, moving, ledger=LEDGER, measured=leg)
+def test_the_page_has_the_section_only_where_there_is_a_leg(study, leg, third):
+    without = report_page(study, Blanks(), STILL, ledger=LEDGER)
+    page = report_page(study, Blanks(third), STILL, ledger=LEDGER, measured=leg)
     assert 'id="measured"' not in without
     assert "measured.json" not in without
     assert page.count('id="measured"') == 1
@@ -88,18 +100,20 @@ def test_results_are_plain_values(leg):
     }  # fmt: skip
 
 
-def test_a_study_with_a_leg_is_written_whole(study, drawn, moving, leg, third, tmp_path, monkeypatch):
-    monkeypatch.setattr(
-        results, "pictures", lambda _study: drawn
-    )  # they take long to draw and are drawn above
-    monkeypatch.setattr(results, "animation", lambda _film: moving)
-    monkeypatch.setattr(results, "measured_pictures", lambda _leg: third)
+def test_a_study_with_a_leg_is_written_whole(study, leg, third, tmp_path, monkeypatch):
+    for name, stand_in in (  # what takes long to draw and has tests of its own
+        ("pictures", lambda _study: {}),
+        ("animation", lambda _film: STILL),
+        ("measured_pictures", lambda _leg: third),
+        ("report_page", lambda *_all, measured, **_more: str(measured is leg)),
+    ):
+        monkeypatch.setattr(results, name, stand_in)
     report = write_study(study, tmp_path / "study", ledger=LEDGER, measured=leg)
     assert is_study(report.parent)
-    assert (report.parent / "measured.json").exists()
-    assert {f"{name}.svg" for name in NAMES} <= {
-        entry.name for entry in (report.parent / "figures").iterdir()
-    }
+    assert report.read_text() == "True"
+    assert json.loads((report.parent / "measured.json").read_text())["missing"]
+    figures = {entry.name for entry in (report.parent / "figures").iterdir()}
+    assert {f"{name}.svg" for name in NAMES} <= figures
 
 
 def test_a_folder_with_one_set_says_only_that(tmp_path):

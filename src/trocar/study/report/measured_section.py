@@ -105,8 +105,8 @@ def measured_parts(leg: MeasuredLeg) -> tuple[Part, ...]:
             Part(
                 title="Silicone between platens",
                 lead="Discs of 50 mm by 30 mm pressed to a third of their height. Each law is fitted to one specimen "
-                "up to 30 % and foretells the rest and the other specimen. Where faces slide the answer is closed, where "
-                "they are held it is finite elements. The truth lies between.",
+                "up to 30 % and foretells the rest and the other specimen. Where faces slide the answer is closed, "
+                "where they are held it is finite elements. The truth lies between.",
                 pictures=("measured-platens", "measured-growth"),
                 tables=tuple(tables),
             )
