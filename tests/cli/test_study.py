@@ -7,10 +7,13 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
+from measured_sets import rough_platens, write_small_sets
 from small_study import shared_folder, shared_small_study
 from trocar.cli import main
 from trocar.cli import study as command
+from trocar.errors import InputError
 from trocar.study import conduct as conducting
+from trocar.study.measured import pressed
 from trocar.study.plan import Plan
 from trocar.study.writing.folder import is_study
 
@@ -53,6 +56,35 @@ def test_a_study_prints_a_table_and_where_its_report_is(app, asked, tmp_path):
     assert result.stdout.splitlines()[-1] == str(out / "report.html")
     for words in ("epidermis", "finite elements, mm", "processor time", "compiling", "drawing and writing"):
         assert words in result.stdout
+
+
+def test_data_add_the_third_leg(app, asked, tmp_path, monkeypatch):
+    monkeypatch.setattr(pressed, "platens", rough_platens)
+    written = []
+
+    def write(_study, out, *, measured, **_origin):
+        written.append(measured)
+        return out / "report.html"
+
+    monkeypatch.setattr(conducting, "write_study", write)
+    data = write_small_sets(tmp_path / "sets")
+    result = invoke(app, "--out", tmp_path / "study", "--data", data)
+    assert len(asked) == 1
+    assert [leg.phantoms is not None for leg in written] == [True]
+    assert "measured tissue" in result.stdout
+    assert "Silicones in tension are left out" in result.stdout
+    said = json.loads(invoke(app, "--out", tmp_path / "study", "--data", data, "--json").stdout)
+    assert said["measured"]["limbs"]["people"] == {"fitted": 10, "judged": 10}
+
+
+def test_broken_data_are_refused_before_anything_is_computed(app, asked, tmp_path):
+    data = write_small_sets(tmp_path / "sets")
+    table = next(data.glob("beef*/*.csv"))
+    table.write_text(table.read_text().replace("force_N", "force"))
+    with pytest.raises(InputError, match="line 1: expected a column named 'force_N'"):
+        invoke(app, "--out", tmp_path / "study", "--data", data)
+    assert asked == []
+    assert not (tmp_path / "study").exists()
 
 
 @pytest.fixture
@@ -99,6 +131,7 @@ def test_json_alone_on_stdout(app, asked, tmp_path):
         (["--tissue", "skin-paper-2014"], "take 'skin' instead"),
         (["--support", "air"], "edges or edges+base or base, got 'air'"),
         (["--preset", "paper-2014", "--quick"], "leave out quick"),
+        (["--preset", "paper-2014", "--data", "sets"], "leave out data"),
         (["--preset", "paper-2015"], "'paper-2015' is not"),
     ],
 )

@@ -47,6 +47,10 @@ def study(
         Preset | None,
         typer.Option(help="paper-2014: the paper's formula as printed, beside the corrected one."),
     ] = None,
+    data: Annotated[
+        Path | None,
+        typer.Option(help="Folder of measured sets: adds what models foretell of them to the report."),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print a summary as JSON alone on stdout.")] = False,
 ) -> None:
     """Run the validation study and write report, figures, data and ledger."""
@@ -68,9 +72,10 @@ def study(
     }
     asked = {key: value for key, value in given.items() if value is not None}
     if preset is not None:
-        if asked:
+        if asked or data is not None:
+            named = [*asked, *(() if data is None else ("data",))]
             raise typer.BadParameter(
-                f"--preset {preset.value} fixes everything; leave out {', '.join(asked)}"
+                f"--preset {preset.value} fixes everything; leave out {', '.join(named)}"
             )
         _print_paper(*conduct_paper(out, command=command), as_json=as_json)
         return
@@ -85,7 +90,7 @@ def study(
         bars.update(bar, description=what, completed=share)
 
     try:
-        done = conduct(plan, out, command=command, watch=watch)
+        done = conduct(plan, out, data=data, command=command, watch=watch)
     finally:
         if bars.live.is_started:
             bars.stop()
@@ -111,6 +116,7 @@ def _number(option: str, value: float) -> float:
 
 def _summary(done: Conducted) -> dict[str, object]:
     from trocar.study.protocol import REFERENCE
+    from trocar.study.writing.measured_results import measured_results
     from trocar.units import MILLIMETRE
 
     study = done.study
@@ -136,6 +142,7 @@ def _summary(done: Conducted) -> dict[str, object]:
         "compile_s": study.compile_seconds,
         "study_s": study.seconds - study.compile_seconds,
         "writing_s": done.writing_seconds,
+        **({} if done.measured is None else {"measured": measured_results(done.measured)}),
     }
 
 
@@ -166,7 +173,10 @@ def _print(done: Conducted) -> None:
     console.print(
         f"compiling {study.compile_seconds:.1f} s, study {study.seconds - study.compile_seconds:.1f} s, "
         f"drawing and writing {done.writing_seconds:.1f} s"
+        + ("" if done.measured is None else f", measured tissue {done.measured.seconds:.1f} s")
     )
+    for sentence in () if done.measured is None else done.measured.sets.missing:
+        console.print(sentence)
     typer.echo(done.report)
 
 

@@ -9,6 +9,8 @@ from time import perf_counter
 
 from trocar.study.ledger import ledger
 from trocar.study.linear_range import Ranges
+from trocar.study.measured.leg import MeasuredLeg, run_leg
+from trocar.study.measured.sets import read_sets
 from trocar.study.paper_preset import PaperStudy, run_paper_study
 from trocar.study.plan import Plan
 from trocar.study.protocol import MODEL, REFERENCE, Study, Watch, run_study
@@ -18,6 +20,7 @@ from trocar.study.writing.results import write_study
 
 PAPER_PRESET = "paper-2014"
 STUDY_SHARE = 0.85  # of the whole work, the rest is drawing and writing
+MEASURED_SHARE = 0.35  # of it, where there are measured sets
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,38 +30,53 @@ class Conducted:
     Attributes:
         study: the results.
         report: the path of the report.
+        measured: the third leg, or None.
         writing_seconds: spent drawing and writing [s], by the clock.
     """
 
     study: Study
     report: Path
+    measured: MeasuredLeg | None
     writing_seconds: float
 
 
 def conduct(
-    plan: Plan, out: Path, *, command: str = "", watch: Watch = lambda _what, _share: None
+    plan: Plan,
+    out: Path,
+    *,
+    data: Path | None = None,
+    command: str = "",
+    watch: Watch = lambda _what, _share: None,
 ) -> Conducted:
     """Run the validation study and write it.
 
     Args:
         plan: the choices.
         out: the folder; new, empty, or an earlier study's, which is replaced whole.
+        data: a folder of measured sets, for the third leg; None leaves it out.
         command: that asked for it, recorded.
         watch: told what is being done and the share of all done, 0 to 1.
 
     Raises:
-        InputError: the plan or the folder is impossible.
+        InputError: the plan or a folder is impossible, or a measured set is broken.
         OSError: the folder cannot be written.
         SolverError: a model could not be solved.
     """
     check_folder(out)
     _refuse_impossible(plan)
-    study = run_study(plan, lambda what, share: watch(what, STUDY_SHARE * share))
+    sets = None if data is None else read_sets(data)
+    share_of_study = STUDY_SHARE if sets is None else STUDY_SHARE - MEASURED_SHARE
+    study = run_study(plan, lambda what, share: watch(what, share_of_study * share))
+    measured = None
+    if sets is not None:
+        measured = run_leg(sets, lambda what, share: watch(what, share_of_study + MEASURED_SHARE * share))
     began = perf_counter()
     watch("drawing and writing", STUDY_SHARE)
-    report = write_study(study, out, ledger=_ledger(study), ranges=_ranges(study), command=command)
+    report = write_study(
+        study, out, ledger=_ledger(study), ranges=_ranges(study), measured=measured, command=command
+    )
     watch("done", 1.0)
-    return Conducted(study=study, report=report, writing_seconds=perf_counter() - began)
+    return Conducted(study=study, report=report, measured=measured, writing_seconds=perf_counter() - began)
 
 
 def conduct_paper(out: Path, *, command: str = "") -> tuple[PaperStudy, Path]:

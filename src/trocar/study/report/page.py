@@ -12,10 +12,12 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from trocar import __version__
 from trocar.study.film import PRESS
 from trocar.study.linear_range import Ranges
+from trocar.study.measured.leg import MeasuredLeg
 from trocar.study.protocol import MARGIN, REFERENCE, Study
 from trocar.study.report import protocol_tables, result_tables, statistic_tables
 from trocar.study.report.answer import answer, overlooked
 from trocar.study.report.figures.animation import Moving, animation_alt
+from trocar.study.report.measured_section import measured_parts
 from trocar.study.report.picture import Picture
 from trocar.study.report.table import Table, percent
 from trocar.units import MILLISECOND
@@ -39,6 +41,8 @@ CONTENTS = (
     ("licence", "Licence and sources"),
 )
 
+MEASURED = ("measured", "Measured tissue")
+
 
 def environment() -> Environment:
     """Return the templates that ship with the package, escaping whatever is put into them."""
@@ -60,6 +64,7 @@ def report_page(
     *,
     ledger: Sequence[Mapping[str, object]] = (),
     ranges: Ranges | None = None,
+    measured: MeasuredLeg | None = None,
     command: str = "",
     created: str = "",
 ) -> str:
@@ -71,6 +76,7 @@ def report_page(
         film: the moving picture.
         ledger: entries with id, published (or printed), recomputed, unit, verdict, note; none where not kept.
         ranges: verdicts on the linear range by case; None where not assessed.
+        measured: what was foretold of measured tissue; None where no data were named.
         command: that made it.
         created: when, as it shall be shown.
     """
@@ -104,7 +110,9 @@ def report_page(
         .render(
             study=study,
             answer=said,
-            contents=CONTENTS,
+            contents=CONTENTS if measured is None else _with_measured(CONTENTS),
+            measured=measured,
+            parts=() if measured is None else measured_parts(measured),
             tables=tables,
             pictures=pictures,
             film=b64encode(film.gif).decode(),
@@ -120,6 +128,12 @@ def report_page(
             created=created,
         )
     )
+
+
+def _with_measured(contents: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
+    """Return the contents with the third leg in front of what it costs."""
+    place = [key for key, _ in contents].index("cost")
+    return (*contents[:place], MEASURED, *contents[place:])
 
 
 def _deflections(study: Study, key: str, note: str = "") -> Table:

@@ -19,7 +19,7 @@ from trocar.errors import InputError
 MARKERS = ("report.html", "results.nc", "ledger.json")
 """What makes a folder one of ours."""
 
-OURS = frozenset({*MARKERS, "curves.csv", "statistics.json", "figures"})
+OURS = frozenset({*MARKERS, "curves.csv", "statistics.json", "measured.json", "figures"})
 """Every name a study writes into its folder."""
 
 _FIGURES = frozenset({".svg", ".gif", ".png"})

@@ -7,19 +7,21 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
-from enum import Enum
-from math import isfinite
 from pathlib import Path
 
 from trocar.study.compare import Comparison
 from trocar.study.linear_range import LinearRange, Ranges
+from trocar.study.measured.leg import MeasuredLeg
 from trocar.study.protocol import BLOCK, Study
 from trocar.study.report.figures.animation import animation
+from trocar.study.report.measured_section import measured_pictures
 from trocar.study.report.page import report_page
 from trocar.study.report.pictures import pictures
 from trocar.study.validity import as_plain
 from trocar.study.writing.dataset import study_dataset
 from trocar.study.writing.folder import fresh_folder
+from trocar.study.writing.measured_results import measured_results
+from trocar.study.writing.plain import plain
 from trocar.units import MILLIMETRE
 
 FILM = "press-and-release"
@@ -33,6 +35,7 @@ def write_study(
     *,
     ledger: Sequence[Mapping[str, object]] = (),
     ranges: Ranges | None = None,
+    measured: MeasuredLeg | None = None,
     command: str = "",
     created: datetime | None = None,
 ) -> Path:
@@ -43,6 +46,7 @@ def write_study(
         out: the folder; new, empty, or an earlier study's, which is replaced whole.
         ledger: entries of the reproduction ledger as plain values: id, published, recomputed, unit, verdict, note.
         ranges: verdicts on the linear range, by case: "small", "paper", "tilted", "pair", "tap".
+        measured: what was foretold of measured tissue; None where no data were named.
         command: that made it, recorded.
         created: time of writing; now where None.
 
@@ -55,7 +59,7 @@ def write_study(
     """
     moment = created or datetime.now(UTC)
     with fresh_folder(out) as folder:
-        drawn = pictures(study)
+        drawn = {**pictures(study), **({} if measured is None else measured_pictures(measured))}
         film = animation(study.film)
         figures = folder / "figures"
         figures.mkdir()
@@ -70,12 +74,15 @@ def write_study(
         write_curves(study, folder / "curves.csv")
         write_json(folder / "statistics.json", statistics(study, ranges))
         write_json(folder / "ledger.json", [dict(entry) for entry in ledger])
+        if measured is not None:
+            write_json(folder / "measured.json", measured_results(measured))
         page = report_page(
             study,
             drawn,
             film,
             ledger=ledger,
             ranges=ranges,
+            measured=measured,
             command=command,
             created=f"{moment.astimezone(UTC):%Y-%m-%d %H:%M} UTC",
         )
@@ -109,7 +116,7 @@ def statistics(study: Study, ranges: Ranges | None = None) -> dict[str, object]:
             for load, models in study.agreement.items()
         },
         "numerics": {
-            layer: _plain(
+            layer: plain(
                 asdict(numbers)
                 | {
                     "resolved": numbers.comparison.resolved,
@@ -118,7 +125,7 @@ def statistics(study: Study, ranges: Ranges | None = None) -> dict[str, object]:
             )
             for layer, numbers in study.numerics.items()
         },
-        "strength": {layer: _plain(asdict(strength)) for layer, strength in study.strength.items()},
+        "strength": {layer: plain(asdict(strength)) for layer, strength in study.strength.items()},
         "cost": {
             name: {
                 history.model: {
@@ -156,16 +163,4 @@ def _cases(study: Study) -> list[tuple[str, Comparison]]:
 
 
 def _verdict(verdict: LinearRange) -> object:
-    return _plain({key: getattr(verdict, key) for key in _RANGE_KEYS})
-
-
-def _plain(value: object) -> object:
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if isinstance(value, Enum):
-        return value.value
-    if isinstance(value, float):
-        return float(value) if isfinite(value) else None
-    return value
+    return plain({key: getattr(verdict, key) for key in _RANGE_KEYS})

@@ -1,0 +1,1 @@
+"""The study's third leg: models held against what was measured on silicone, limbs, tissue and rubber."""
