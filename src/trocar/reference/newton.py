@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 import scipy.sparse as sp
@@ -44,8 +44,13 @@ class Equations(Protocol):
         """Return their derivative [N/m], symmetric, shape (n, n)."""
         ...
 
+
+@runtime_checkable
+class Convexified(Equations, Protocol):
+    """Equations that know a positive definite stand-in for their derivative."""
+
     def convex(self, unknowns: FloatArray) -> sp.csr_array | None:
-        """Return a positive definite stand-in for the derivative, or None where there is none."""
+        """Return it, or None where there is none after all."""
         ...
 
 
@@ -159,7 +164,7 @@ def _direction(
             return direction
     except SolverError as error:
         direction, singular = np.zeros_like(force), error
-    stand_in = equations.convex(unknowns)
+    stand_in = equations.convex(unknowns) if isinstance(equations, Convexified) else None
     if stand_in is not None:
         return directions.solve(stand_in, -force)
     if singular is not None:

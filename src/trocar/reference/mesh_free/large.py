@@ -68,10 +68,6 @@ class Balance:
         matrix = body.pattern.matrix(moduli, jacobian[:, None, None] * back, body.laws.lame)
         return body.freed(matrix)
 
-    def convex(self, unknowns: FloatArray) -> sp.csr_array | None:
-        """Return nothing: an indefinite tangent is shortened away."""
-        return None
-
 
 def equilibrium(body: Body, force: FloatArray) -> FloatArray:
     """Return the displacement [m], shape (nodes, 3), under nodal forces [N], shape (nodes, 3).
