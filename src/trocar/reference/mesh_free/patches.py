@@ -15,7 +15,7 @@ counted once a cell, from the mean of its parts (the pressure projection of J.-S
 locks.
 
 Where a cut runs through a cell its parts are sorted by whether they see each other, each group a patch of its own, and
-a part sees to its faces from its own middle: a cut runs along the faces of parts, within a quarter of a cell of its place.
+a part sees to its faces from its own middle: a cut runs along faces of parts, within a quarter of a cell of its place.
 """
 
 from __future__ import annotations
