@@ -15,7 +15,7 @@ counted once a cell, from the mean of its parts (the pressure projection of J.-S
 locks.
 
 Where a cut runs through a cell its parts are sorted by whether they see each other, each group a patch of its own, and
-a part sees to its faces from its own middle: a cut runs along the faces of parts, a quarter of a cell off at most.
+a part sees to its faces from its own middle: a cut runs along faces of parts, within a quarter of a cell of its place.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from numba import njit
 
 from trocar.errors import InputError
 from trocar.model import FloatArray
-from trocar.reference.grid import IntArray
+from trocar.reference.mesh import IntArray
 from trocar.reference.mesh_free.cloud import Cloud
 from trocar.reference.mesh_free.cut import hidden
 from trocar.reference.mesh_free.shape import felt_in_cell, shape_functions
