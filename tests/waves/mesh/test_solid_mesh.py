@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from trocar.errors import InputError
-from trocar.waves.mesh.solid_mesh import Held, outer_faces, placed, volumes_of
+from trocar.waves.mesh.faces import outer_faces
+from trocar.waves.mesh.solid_mesh import Held, placed, volumes_of
 from waves.mesh.meshes import BLOCK, tetrahedra
 
 
@@ -15,8 +16,8 @@ def test_volumes_add_up_and_faces_are_the_outside():
     many = tetrahedra(BLOCK)
     assert volumes_of(many.corners, many.cells).sum() == pytest.approx(0.02 * 0.02 * 0.0062)
     x, y, z = (len(np.unique(column)) - 1 for column in BLOCK.corners.T)
-    assert len(outer_faces(BLOCK.cells)) == 2 * (x * y + y * z + z * x)
-    assert len(outer_faces(many.cells)) == 2 * len(outer_faces(BLOCK.cells))
+    assert len(outer_faces(BLOCK.cells)[0]) == 2 * (x * y + y * z + z * x)
+    assert len(outer_faces(many.cells)[0]) == 2 * len(outer_faces(BLOCK.cells)[0])
 
 
 def test_a_mesh_is_placed_like_a_block():
@@ -30,6 +31,15 @@ def inverted(mesh):
     return {"cells": cells}
 
 
+def twice(mesh):
+    beside = mesh.corners + np.array([0.05, 0.0, 0.0])
+    return {
+        "corners": np.concatenate([mesh.corners, beside]),
+        "cells": np.concatenate([mesh.cells, mesh.cells + len(beside)]),
+        "region": np.tile(mesh.region, 2),
+    }
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [
@@ -38,6 +48,7 @@ def inverted(mesh):
         (lambda mesh: {"corners": 1e-3 * mesh.corners}, "is the unit right"),
         (lambda mesh: {"corners": np.append(mesh.corners, [[0.0, 0.0, 0.0]], axis=0)}, "1 in none"),
         (lambda mesh: {"corners": np.full_like(mesh.corners, np.nan)}, "finite places"),
+        (twice, "one piece, whose elements share nodes, got '2 pieces, the second of"),
         (lambda mesh: {"held": ()}, "floats away"),
         (lambda mesh: {"held": (Held(faces=np.zeros((0, 4), dtype=int)),)}, "floats away"),
         (lambda mesh: {"surfaces": {}}, "a name with faces"),

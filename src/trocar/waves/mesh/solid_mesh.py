@@ -5,8 +5,9 @@ x and y begin at 0 and the highest point has z = 0, as in a block; `placed` move
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +15,7 @@ import numpy.typing as npt
 from trocar.errors import InputError
 from trocar.model import FloatArray, Support
 from trocar.tissues.layer import Layer
+from trocar.waves.mesh.parts import parts
 
 IntArray = npt.NDArray[np.int64]
 
@@ -24,7 +26,7 @@ _FLAT = 1e-6  # of the mean volume: a flatter element has none
 
 # Corners of the faces, by corners of an element. Hexahedra are numbered as by VTK and meshio: a quadrilateral, and the
 # one above it.
-_FACES = {
+FACES = {
     4: ((0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)),
     8: ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
 }
@@ -78,13 +80,16 @@ class SolidMesh:
     def __post_init__(self) -> None:
         if self.corners.ndim != 2 or self.corners.shape[1] != 3 or not np.isfinite(self.corners).all():
             raise InputError("mesh: corners", "finite places, shape (n, 3)", self.corners.shape)
-        if self.cells.ndim != 2 or self.cells.shape[1] not in _FACES or len(self.cells) == 0:
+        if self.cells.ndim != 2 or self.cells.shape[1] not in FACES or len(self.cells) == 0:
             raise InputError(
                 "mesh: cells", "tetrahedra or hexahedra, shape (m, 4) or (m, 8)", self.cells.shape
             )
         if len(self.corners) > MOST_CORNERS:
             raise InputError(
-                "mesh: corners", f"at most {MOST_CORNERS}", len(self.corners), "mesh it more coarsely"
+                "mesh: corners",
+                f"at most {MOST_CORNERS}",
+                len(self.corners),
+                "make larger elements: 10,000 are a whole organ",
             )
         if (
             self.region.shape != (len(self.cells),)
@@ -95,6 +100,7 @@ class SolidMesh:
             )
         self._check_size()
         self._check_elements()
+        self._check_pieces()
         if not any(len(one.faces) for one in self.held):
             raise InputError(
                 "mesh: held", "faces that do not move", "none", "without a support the tissue floats away"
@@ -107,6 +113,47 @@ class SolidMesh:
                 )
         if not self.surfaces or not all(len(faces) for faces in self.surfaces.values()):
             raise InputError("mesh: surfaces", "a name with faces at least", sorted(self.surfaces))
+
+    @classmethod
+    def read(
+        cls,
+        path: Path | str,
+        materials: Layer | Mapping[str, Layer],
+        *,
+        unit: str = "mm",
+        up: str = "+z",
+        held: str | Sequence[str] = "below",
+        touched: str = "above",
+        spacing: float | None = None,
+        drop_unused: bool = False,
+    ) -> SolidMesh:
+        """Read a file of tetrahedra or hexahedra, or fill a closed surface with tetrahedra; needs the extra `mesh`.
+
+        Args:
+            path: a .vtk, .vtu, .msh, .inp, .mesh, .bdf or .nas file; of surfaces also .stl, .obj, .ply and .off.
+            materials: one for all, or by the names of the file's regions (physical groups, element sets, numbers).
+            unit: of the file's lengths: m, cm, mm or um.
+            up: which axis of the file looks up: +z, -z, +y, -y, +x or -x.
+            held: groups of faces or nodes that do not move; "below": faces within 45 degrees of looking down.
+            touched: the group of faces that can be pressed; "above": all that are seen from above.
+            spacing: of the tetrahedra that fill a surface [m]; None takes a twenty-fourth of its longest side.
+            drop_unused: leave out nodes that no element has.
+
+        Raises:
+            InputError: the file cannot be read, or what it says cannot be a tissue.
+        """
+        from trocar.waves.mesh.reading import read_mesh  # noqa: PLC0415 - it makes what this module defines
+
+        return read_mesh(
+            Path(path),
+            materials,
+            unit=unit,
+            up=up,
+            held=held,
+            touched=touched,
+            spacing=spacing,
+            drop_unused=drop_unused,
+        )
 
     @property
     def size(self) -> tuple[float, float]:
@@ -124,6 +171,17 @@ class SolidMesh:
                 "is the unit right? lengths are in metres here",
             )
 
+    def _check_pieces(self) -> None:
+        piece = parts(self.cells, len(self.corners))
+        if piece.max() > 0:
+            lost = self.corners[self.cells[piece == 1]].mean(axis=(0, 1))
+            raise InputError(
+                "mesh: cells",
+                "one piece, whose elements share nodes",
+                f"{int(piece.max()) + 1} pieces, the second of {int((piece == 1).sum())} elements about {shown(lost)}",
+                "merge nodes at the same place in the program that made it, or leave the smaller pieces out",
+            )
+
     def _check_elements(self) -> None:
         if self.cells.min() < 0 or self.cells.max() >= len(self.corners):
             worst = int(self.cells.min() if self.cells.min() < 0 else self.cells.max())
@@ -135,19 +193,24 @@ class SolidMesh:
                 "mesh: corners",
                 "every node in an element",
                 f"{int((~used).sum())} in none, the first {int(np.argmin(used))}",
-                "remove nodes that no element has",
+                "remove nodes that no element has (SolidMesh.read: pass drop_unused=True)",
             )
         volumes = volumes_of(self.corners, self.cells)
         bad = volumes <= _FLAT * np.abs(volumes).mean()
         if bad.any():
             first = int(np.argmax(bad))
-            centre = ", ".join(f"{1e3 * x:.4g}" for x in self.corners[self.cells[first]].mean(axis=0))
+            centre = shown(self.corners[self.cells[first]].mean(axis=0))
             raise InputError(
                 "mesh: cells",
                 "elements with a volume above 0, corners in right-handed order",
-                f"{int(bad.sum())} flat or inverted, the first {first}, at ({centre}) mm",
+                f"{int(bad.sum())} flat or inverted, the first {first}, at {centre}",
                 "repair the mesh; if all are inverted, exchange two corners of each",
             )
+
+
+def shown(place: FloatArray) -> str:
+    """Return a place [m] in millimetres, as messages show it."""
+    return "(" + ", ".join(f"{1e3 * x:.4g}" for x in place) + ") mm"
 
 
 def placed(mesh: SolidMesh) -> SolidMesh:
@@ -166,10 +229,3 @@ def volumes_of(corners: FloatArray, cells: IntArray) -> FloatArray:
         for i, *others in spans
     ]
     return np.asarray(np.min(each, axis=0))
-
-
-def outer_faces(cells: IntArray) -> IntArray:
-    """Return the corners of the faces that one element alone has, shape (k, 3) or (k, 4)."""
-    faces = np.concatenate([cells[:, list(face)] for face in _FACES[cells.shape[1]]])
-    _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
-    return np.asarray(faces[np.sort(first[count == 1])], dtype=np.int64)

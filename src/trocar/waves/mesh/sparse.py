@@ -1,21 +1,45 @@
-"""A factored stiffness: an order of elimination that fills little, and every residual checked."""
+"""A factored stiffness: parts that are eliminated one after the other, dense within, and every residual checked.
+
+Nested dissection (George 1973, SIAM J. Numer. Anal. 10:345) makes a tree of parts; the multifrontal method (Duff and
+Reid 1983, ACM Trans. Math. Softw. 9:302) eliminates each in a dense matrix of its own unknowns and of those that they
+touch later,
+
+    [F11  .  ]   L11 L11' = F11,   L21 = F21 L11'^-1,   F22 - L21 L21' goes into the part above.
+    [F21  F22]
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import splu
+from scipy.linalg.blas import dsyrk, dtrsm
+from scipy.linalg.lapack import dpotrf
 
 from trocar.errors import SolverError
 from trocar.model import FloatArray
 from trocar.waves.mesh.solid_mesh import IntArray
 
-_LEAF = 60  # nodes of a part that is no longer cut
+_LEAF = 40  # nodes of a part that is no longer cut
 _ACCEPTED = 1e-8  # relative residual
 
 
-def dissected(places: FloatArray, matrix: sp.csr_array) -> IntArray:
-    """Return an order of elimination by nested dissection (George 1973, SIAM J. Numer. Anal. 10:345).
+@dataclass(frozen=True, eq=False)
+class Part:
+    """Nodes that are eliminated together.
+
+    Attributes:
+        nodes: their numbers.
+        below: places in the order of elimination of the parts that this one parts.
+    """
+
+    nodes: IntArray
+    below: tuple[int, ...] = ()
+
+
+def dissected(places: FloatArray, matrix: sp.csr_array) -> list[Part]:
+    """Return parts in their order of elimination.
 
     A part is cut at the middle of its longest side; whoever has a neighbour on the other side is eliminated last.
 
@@ -25,29 +49,43 @@ def dissected(places: FloatArray, matrix: sp.csr_array) -> IntArray:
     """
     pattern = sp.csr_array(matrix)
     side = np.zeros(len(places[0]), dtype=np.int8)
-    found: list[IntArray] = []
+    found: list[Part] = []
 
-    def cut(nodes: IntArray) -> None:
-        if len(nodes) <= _LEAF:
-            found.append(nodes)
-            return
-        along = places[int(np.argmax(np.ptp(places[:, nodes], axis=1)))][nodes]
-        left = along < np.median(along)
-        if not left.any() or left.all():
-            found.append(nodes)
-            return
+    def touching(nodes: IntArray, others: np.int8) -> np.ndarray:
+        rows = pattern[nodes]
+        seen = np.repeat(np.arange(len(nodes)), np.diff(rows.indptr))[side[rows.indices] == others]
+        return nodes[np.unique(seen)]
+
+    def cut(nodes: IntArray) -> int:
+        along = (
+            places[int(np.argmax(np.ptp(places[:, nodes], axis=1)))][nodes] if len(nodes) > _LEAF else nodes
+        )
+        left = along < np.median(along) if len(nodes) > _LEAF else np.zeros(len(nodes), dtype=bool)
+        if not left.any():
+            found.append(Part(nodes))
+            return len(found) - 1
         side[nodes] = np.where(left, 1, 2)
-        rows = pattern[nodes[left]]
-        touching = np.repeat(np.flatnonzero(left), np.diff(rows.indptr))[side[rows.indices] == 2]
+        apart = min(touching(nodes[left], np.int8(2)), touching(nodes[~left], np.int8(1)), key=len)
+        side[apart] = 0
+        one, other = nodes[side[nodes] == 1], nodes[side[nodes] == 2]
         side[nodes] = 0
-        apart = np.zeros(len(nodes), dtype=bool)
-        apart[touching] = True
-        cut(nodes[left & ~apart])
-        cut(nodes[~left])
-        found.append(nodes[apart])
+        below = tuple(cut(half) for half in (one, other) if len(half))
+        found.append(Part(apart, below))
+        return len(found) - 1
 
     cut(np.arange(len(places[0]), dtype=np.int64))
-    return np.concatenate(found)
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Front:
+    """What is kept of a part: its unknowns begin to end, those it touches later, and its columns of the factor."""
+
+    begin: int
+    end: int
+    later: IntArray
+    square: FloatArray
+    beside: FloatArray
 
 
 class Factored:
@@ -55,21 +93,61 @@ class Factored:
 
     Args:
         matrix: shape (n, n), its unknowns in the order to eliminate them in.
+        sizes: how many unknowns each part has, in that order.
+        below: which parts lie below each.
 
     Raises:
         SolverError: it is singular.
     """
 
-    def __init__(self, matrix: sp.csr_array) -> None:
+    def __init__(self, matrix: sp.csr_array, sizes: list[int], below: list[tuple[int, ...]]) -> None:
         self._matrix = matrix
-        options = {"SymmetricMode": True, "Equil": False}
+        columns = sp.csc_array(sp.tril(matrix))
+        ends = np.cumsum(sizes)
+        self._fronts: list[_Front] = []
+        waiting: dict[int, FloatArray] = {}
         try:
-            self._factor = splu(matrix.tocsc(), permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options)
-        except (RuntimeError, MemoryError) as error:
+            for number, (end, size) in enumerate(zip(ends.tolist(), sizes, strict=True)):
+                begin = end - size
+                entries = slice(columns.indptr[begin], columns.indptr[end])
+                row, value = columns.indices[entries], columns.data[entries]
+                column = np.repeat(np.arange(size), np.diff(columns.indptr[begin : end + 1]))
+                touched = [row, *(self._fronts[one].later for one in below[number])]
+                later = np.unique(np.concatenate([rows[rows >= end] for rows in touched])).astype(np.int64)
+                known = np.concatenate([np.arange(begin, end), later])
+                front = np.zeros((len(known), len(known)), order="F")
+                front[np.searchsorted(known, row), column] = value
+                for one in below[number]:
+                    place = np.searchsorted(known, self._fronts[one].later)
+                    front[np.ix_(place, place)] += waiting.pop(one)
+                square, beside, waiting[number] = self._eliminated(front, size)
+                self._fronts.append(_Front(begin, end, later, square, beside))
+        except MemoryError as error:
             raise SolverError(
-                f"the mesh's {matrix.shape[0]} unknowns could not be factored ({error}); "
-                "is every part of it held or joined to one that is?"
+                f"the mesh's {matrix.shape[0]} unknowns do not fit into memory once factored; "
+                "make larger elements"
             ) from error
+
+    def _eliminated(self, front: FloatArray, size: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return L11, L21 and what goes into the part above, of which only the lower triangle counts."""
+        rest = front[size:, size:]
+        if size == 0:
+            return np.zeros((0, 0)), np.zeros((len(front), 0)), rest
+        square, failed = dpotrf(front[:size, :size], lower=1)
+        if failed:
+            raise SolverError(
+                f"the mesh's {self._matrix.shape[0]} unknowns could not be factored; "
+                "is every part of it held or joined to one that is?"
+            )
+        if size == len(front):
+            return square, np.zeros((0, size)), rest
+        beside = dtrsm(1.0, square, front[size:, :size], side=1, lower=1, trans_a=1)
+        return square, beside, dsyrk(-1.0, beside, beta=1.0, c=rest, lower=1)
+
+    @property
+    def stored(self) -> int:
+        """Memory that the factor takes [bytes]."""
+        return sum(front.square.nbytes + front.beside.nbytes for front in self._fronts)
 
     def solve(self, right: FloatArray) -> FloatArray:
         """Solve for a right-hand side, shape (n,) or (n, k).
@@ -77,7 +155,19 @@ class Factored:
         Raises:
             SolverError: the residual is above 1e-8 of the right-hand side.
         """
-        solution = np.asarray(self._factor.solve(right))
+        right = np.asarray(right)
+        solution = np.array(right.reshape(len(right), -1), dtype=np.float64)
+        for front in self._fronts:
+            own = slice(front.begin, front.end)
+            if front.end > front.begin:
+                solution[own] = dtrsm(1.0, front.square, solution[own], lower=1)
+                solution[front.later] -= front.beside @ solution[own]
+        for front in reversed(self._fronts):
+            own = slice(front.begin, front.end)
+            if front.end > front.begin:
+                rest = solution[own] - front.beside.T @ solution[front.later]
+                solution[own] = dtrsm(1.0, front.square, rest, lower=1, trans_a=1)
+        solution = solution.reshape(right.shape)
         size = np.linalg.norm(right)
         error = np.linalg.norm(right - self._matrix @ solution)
         if not error <= _ACCEPTED * size:

@@ -121,12 +121,20 @@ class WaveMesh:
         return inf
 
     @cached_property
-    def _order(self) -> IntArray:
-        """Unknowns that are free, in the order of their elimination."""
+    def _parts(self) -> tuple[list[IntArray], list[tuple[int, ...]]]:
+        """Unknowns that are free, part by part in the order of their elimination, and which parts lie below each."""
         count = self.elements.nodes.shape[1]
-        nodes = dissected(self.elements.nodes, self._stiffness[:count, :count])
-        unknowns = (nodes[:, None] + count * np.arange(3)).ravel()
-        return np.asarray(unknowns[~self.elements.held.ravel()[unknowns]], dtype=np.int64)
+        free = ~self.elements.held.ravel()
+        unknowns, below = [], []
+        for part in dissected(self.elements.nodes, self._stiffness[:count, :count]):
+            own = (part.nodes[:, None] + count * np.arange(3)).ravel()
+            unknowns.append(own[free[own]])
+            below.append(part.below)
+        return unknowns, below
+
+    @cached_property
+    def _order(self) -> IntArray:
+        return np.concatenate(self._parts[0])
 
     @cached_property
     def _stiffness(self) -> sp.csr_array:
@@ -134,8 +142,9 @@ class WaveMesh:
 
     @cached_property
     def _factored(self) -> Factored:
-        order = self._order
-        return Factored(sp.csr_array(self._stiffness[order][:, order]))
+        order, (unknowns, below) = self._order, self._parts
+        matrix = sp.csr_array(self._stiffness[order][:, order])
+        return Factored(matrix, [len(own) for own in unknowns], below)
 
     @cached_property
     def _found(self) -> tuple[FloatArray, FloatArray]:
