@@ -36,6 +36,7 @@ STEP_OF_SHEETS = 1e-2  # sheets are fitted to their layers anew, which is smooth
 _SETTLED = 0.03  # relative change of every sigma at which the fit is not repeated
 _MOST_ROUNDS = 4
 _MOST_EVALUATIONS = 60
+_ENDS = 1e-7  # relative: a sum of squares of a hundred is then minimal within a hundredth of a standard error
 _LEAST_NOISE = 1e-6  # of a series' range: data without noise are still rounded
 
 Watch = Callable[[str], None]
@@ -131,26 +132,26 @@ def fit(problem: Problem, watch: Watch = lambda _: None) -> Fitted:
     first = np.clip(problem.first, bounds[:, 0] + margin, bounds[:, 1] - margin)
     free = first
     sigmas = work.first_noise(free)
-    for round_ in range(_MOST_ROUNDS):
+    for _ in range(_MOST_ROUNDS):
         work.sigmas = sigmas
         found = least_squares(
             work.misfit,
             free,
             jac=work.misfit_slopes,
             bounds=(bounds[:, 0], bounds[:, 1]),
-            xtol=1e-7,
-            ftol=1e-9,
-            gtol=1e-9,
+            xtol=_ENDS,
+            ftol=_ENDS,
+            gtol=_ENDS,
             max_nfev=_MOST_EVALUATIONS,
         )
         free = np.asarray(found.x, dtype=np.float64)
         settled = np.array([one.rms for one in work.noise(free)])
-        if problem.noise_depth is not None:
-            break
+        if problem.noise_depth is not None or (len(settled) == 1 and problem.noise_force is None):
+            break  # weights are known, or one that all rows share
         settled = work.without_force(settled, free)
         changed = np.abs(settled / sigmas - 1).max()
         sigmas = settled
-        if (round_ > 0 or len(sigmas) == 1) and changed < _SETTLED:
+        if changed < _SETTLED:
             break
     rows, at_once = work.predict(free)
     offsets = work.offsets(rows)

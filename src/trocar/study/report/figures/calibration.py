@@ -22,7 +22,7 @@ from trocar.study.report.figures.style import (
 )
 from trocar.units import MILLIMETRE
 
-_DOTS = {"linestyle": "none", "marker": "o", "markersize": 2.6, "markeredgewidth": 0.0, "alpha": 0.7}
+_DOTS = {"linestyle": "none", "marker": "o", "markersize": 3.6, "markeredgewidth": 0.0, "alpha": 0.7}
 _WIDEST = 3.0  # decades either side that an interval's axis shows
 _LEVEL = 1.96
 
@@ -44,7 +44,7 @@ def fit_figure(calibration: Calibration) -> Figure:
         reading, rows = series.value - fitted.offsets[i], fitted.rows[part]
         for column, x in enumerate((series.time, force)):
             above, below = grid[0, column], grid[1, column]
-            above.plot(x[seen], reading[seen] / MILLIMETRE, color=colour, label=f"{series.name}", **_DOTS)
+            above.plot(x[seen], reading[seen] / MILLIMETRE, color=colour, label=series.name, **_DOTS)
             below.plot(x[seen], (reading - rows)[seen] / MICROMETRE, color=colour, **_DOTS)
             if not seen.all():
                 open_ = {**_DOTS, "markeredgewidth": 0.6, "markerfacecolor": "none"}
@@ -52,7 +52,7 @@ def fit_figure(calibration: Calibration) -> Figure:
                 above.plot(x[~seen], reading[~seen] / MILLIMETRE, color=colour, label=name, **open_)
                 below.plot(x[~seen], (reading - rows)[~seen] / MICROMETRE, color=colour, **open_)
             fit = f"fit, {label(calibration.model)}" if i == 0 else None
-            above.plot(x, rows / MILLIMETRE, color=BLACK, linewidth=1.2, label=fit)
+            above.plot(x, rows / MILLIMETRE, color=BLACK, linewidth=0.8, label=fit)
         noise = fitted.noise[i].used / MICROMETRE
         if i == 0:
             for below in grid[1]:
@@ -125,8 +125,8 @@ def _intervals(axes: Axes, calibration: Calibration) -> None:
     axes.set_ylim(len(names) - 0.4, -0.6)
     widest = max(abs(np.array(axes.get_xlim())).max(), 0.02)
     axes.set_xlim(-widest, widest)
-    ticks = [tick for tick in axes.get_xticks() if -widest <= tick <= widest]
-    axes.set_xticks(ticks, [f"{10**tick:.3g}" for tick in ticks])
+    ticks = [tick for tick in _ticks(float(widest)) if abs(np.log10(tick)) <= widest]
+    axes.set_xticks(np.log10(ticks), [f"{tick:g}" for tick in ticks])
     axes.set_xlabel("over the fitted value")
     axes.set_title("what is known")
     axes.legend(
@@ -136,6 +136,15 @@ def _intervals(axes: Axes, calibration: Calibration) -> None:
         fontsize=7.5,
         handlelength=1.4,
     )
+
+
+def _ticks(widest: float) -> tuple[float, ...]:
+    """Return ratios to mark on an axis that reaches this many decades to either side of 1."""
+    if widest > 1:
+        return tuple(10.0**place for place in range(-4, 5))
+    if widest > 0.2:
+        return 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0
+    return (0.6, 0.8, 1.0, 1.25, 1.6) if widest > 0.06 else (0.9, 0.95, 1.0, 1.05, 1.1)
 
 
 def _correlations(axes: Axes, calibration: Calibration) -> None:
@@ -166,18 +175,22 @@ def markers_figure(calibration: Calibration) -> Figure:
     series = calibration.problem.measurement.series
     chosen = [i for i, one in enumerate(series) if one.places is not None]
     figure = sheet(2.9)
-    panels = np.atleast_1d(figure.subplots(1, max(len(chosen), 2)))
-    for axes in panels[len(chosen) :]:
-        axes.set_axis_off()
-    for axes, i in zip(panels, chosen, strict=False):
+    *panels, away = figure.subplots(1, len(chosen) + 1)
+    for axes, colour, i in zip(panels, LAYER_COLOURS[1:], chosen, strict=False):
         rows = calibration.fitted.rows[calibration.problem.probes.parts[i]] / MILLIMETRE
         reading = series[i].value / MILLIMETRE
         ends = [min(rows.min(), reading.min()), max(rows.max(), reading.max())]
         axes.plot(ends, ends, color=GREY, linewidth=0.8)
-        axes.plot(rows, reading, color=BLUE, **_DOTS)
+        axes.plot(rows, reading, color=colour, **_DOTS)
         axes.set_title(series[i].name)
         axes.set_xlabel("fit / mm")
         axes.set_ylabel("measured / mm")
+        distance = np.hypot(*(series[i].places - calibration.case.tools[0].position).T)  # type: ignore[operator]
+        away.plot(distance / MILLIMETRE, (reading - rows) * MILLIMETRE / MICROMETRE, color=colour, **_DOTS)
+    away.axhline(0.0, color=GREY, linewidth=0.8)
+    away.set_title("what is left")
+    away.set_xlabel("distance from the tool / mm")
+    away.set_ylabel("left / µm")
     return figure
 
 
