@@ -17,12 +17,14 @@ from trocar.study.calibration.measurement import Measurement
 from trocar.study.calibration.memory import at_rate
 from trocar.study.calibration.parameter import Specimen, parameters
 from trocar.study.calibration.plausibility import check_scale, check_seen
-from trocar.study.calibration.response import builder, check_model, first_specimen, response
+from trocar.study.calibration.response import builder, check_model, first_specimen, lowest_points, response
 from trocar.study.cases.experiment import Case
 from trocar.study.linear_range import linear_range
 from trocar.study.rigid import RigidTips
 from trocar.units import MILLIMETRE
 
+_MOST_PLACES = 3  # fits, each reading depths where the faces of the one before are lowest
+_MOVED = 0.05  # of the tool's diameter: a lowest point that moved less is still where the depth is read
 HOLD_OUT = 0.25  # of a record's time: its end, which the fit does not see
 MODEL_ERROR = {"wave-solid": 0.002, "wave-membrane": 0.03, "fea": 0.002}
 """Share of a deflection each model may be off by [1]: by its mesh, against finite elements, by its sheets' misfit."""
@@ -153,38 +155,45 @@ def calibrate(
     _check_numbers(hold_out, noise_force, noise_depth, model_error)
     start = first_specimen(case, model, names)
     wanted = parameters(names, start)
-    predict, read = response(case, model, measurement, start, wanted)
     share = 0.0 if check is not None else hold_out
     last = measurement.time[0] + (1 - share) * measurement.duration
     of_layers = model == "wave-membrane" and start.stack is None
-    problem = Problem(
-        measurement=measurement,
-        probes=read,
-        response=predict,
-        parameters=wanted,
-        start=start,
-        used=read.time <= last * (1 + 1e-12),
-        noise_force=noise_force,
-        noise_depth=noise_depth,
-        zeroed=zeroed,
-        step=STEP_OF_SHEETS if of_layers else STEP,
-    )
-    check_seen(problem)
-    check_scale(problem, predict(start)[0])
-    fitted = fit(problem, watch)
+    attempts, near = 0, start
+    while True:
+        predict, read = response(case, model, measurement, near, wanted)
+        problem = Problem(
+            measurement=measurement,
+            probes=read,
+            response=predict,
+            parameters=wanted,
+            start=start,
+            used=read.time <= last * (1 + 1e-12),
+            noise_force=noise_force,
+            noise_depth=noise_depth,
+            zeroed=zeroed,
+            step=STEP_OF_SHEETS if of_layers else STEP,
+        )
+        if attempts == 0:
+            check_seen(problem)
+            check_scale(problem, predict(start)[0])
+        fitted = fit(problem, watch)
+        attempts, near = attempts + 1, problem.specimen(fitted.free)
+        moved = read.moved(lowest_points(case, model, near), _MOVED * case.tools[0].diameter)
+        if not moved or attempts == _MOST_PLACES:
+            break
     error = MODEL_ERROR[model] if model_error is None else model_error
     known = knowledge(problem, fitted, error)
     if check is None:
         held = rest_of_record(problem, fitted, known)
     else:
-        other, other_read = response(case, model, check, start, wanted)
+        other, other_read = response(case, model, check, near, wanted)
         held = other_record(
             problem,
             replace(problem, measurement=check, probes=other_read, response=other),
             fitted,
             known,
         )
-    limit = _force_limit(case, model, problem.specimen(fitted.free), measurement.peak)
+    limit = _force_limit(case, model, near, measurement.peak)
     return Calibration(
         case=case,
         model=model,

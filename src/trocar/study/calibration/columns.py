@@ -18,6 +18,7 @@ import numpy as np
 
 from trocar.errors import InputError
 from trocar.model import FloatArray
+from trocar.study.cases.key_table import Words, printable
 
 MOST_BYTES = 16 * 2**20
 MOST_ROWS = 50_000
@@ -62,7 +63,7 @@ def read_columns(path: str | PathLike[str], required: Sequence[str], optional: S
         if line.strip(" \t;,") and not line.lstrip(' "').startswith("#")
     ]
     if not lines:
-        raise InputError(file, "a line that names columns, then rows of numbers", "no row")
+        raise InputError(file, "a line that names columns, then rows of numbers", Words("no row"))
     mark = next((mark for mark in _MARKS if mark in lines[0][1]), ",")
     names = [name.strip() for name in _cells(file, *lines[0], mark)]
     while names and not names[-1]:  # a spreadsheet's empty last columns
@@ -82,14 +83,16 @@ def read_columns(path: str | PathLike[str], required: Sequence[str], optional: S
 def _text(file: str, path: Path) -> str:
     try:
         if path.exists() and not path.is_file():
-            raise InputError(file, "a readable text file", "a folder" if path.is_dir() else "no regular file")
+            raise InputError(
+                file, "a readable text file", Words("a folder" if path.is_dir() else "no regular file")
+            )
         with path.open("rb") as stream:
             content = stream.read(MOST_BYTES + 1)
     except (OSError, ValueError) as error:  # ValueError: a path with a null byte
         reason = getattr(error, "strerror", None) or str(error)
-        raise InputError(file, "a readable text file", reason) from None
+        raise InputError(file, "a readable text file", Words(printable(reason))) from None
     if len(content) > MOST_BYTES:
-        raise InputError(file, f"at most {MOST_BYTES // 2**20} MiB", "a larger file")
+        raise InputError(file, f"at most {MOST_BYTES // 2**20} MiB", Words("a larger file"))
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -116,7 +119,7 @@ def _check_names(where: str, names: list[str], required: Sequence[str], optional
             raise InputError(where, "every column once", name)
     missing = [name for name in required if name not in names]
     if missing:
-        raise InputError(where, f"a column {missing[0]}", ", ".join(names))
+        raise InputError(where, f"a column {missing[0]}", Words(", ".join(names)))
 
 
 def _row(file: str, number: int, cells: list[str], names: list[str], mark: str) -> list[float]:
@@ -139,7 +142,7 @@ def _number(where: str, cell: str, mark: str) -> float:
     try:
         value = float(text.replace("_", "?"))  # Python takes 1_000 for a number, nobody else does
     except ValueError:
-        raise InputError(where, "a number", cell or "an empty cell") from None
+        raise InputError(where, "a number", cell or Words("an empty cell")) from None
     if not isfinite(value):
         raise InputError(where, "a finite number", cell, "take the row out, or fill it in")
     return value

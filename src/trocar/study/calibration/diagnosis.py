@@ -1,8 +1,9 @@
 """What is wrong with a fit, in sentences: parameters at their bounds, readings that the model cannot follow, and why.
 
-What is left of a depth is compared with three shapes, each cleared of what the fit could take up itself: the square of
-the force (tissue that stiffens or softens), the force's direction (a loop of loading and unloading), and the time since
-the force stood still (creep). The one that explains most of it is named.
+Where what a depth leaves is like the prediction itself, no parameter could scale it. Else it is compared with three
+shapes, each cleared of what the fit could take up itself: the square of the force (tissue that stiffens or softens),
+the force's direction (a loop of loading and unloading), and the time since the force stood still (creep). The one that
+explains most of it is named.
 """
 
 from __future__ import annotations
@@ -70,7 +71,14 @@ def _reason(problem: Problem, fitted: Fitted, part: int) -> str:
     seen = problem.used[rows]
     left = (series.value - fitted.rows[rows] - fitted.offsets[part])[seen]
     force = np.interp(series.time, problem.measurement.time, problem.measurement.force)
-    own = [fitted.rows[rows][seen], np.ones(seen.sum()), *fitted.slopes[rows][seen].T]
+    level = np.ones(seen.sum())
+    scale = _explained(fitted.rows[rows][seen], [level], left)
+    if abs(scale) > _EXPLAINED:
+        return (
+            f"The readings are {'larger' if scale > 0 else 'smaller'} than it can make them whatever "
+            "the parameters: fit one that bears more of the load."
+        )
+    own = [fitted.rows[rows][seen], level, *fitted.slopes[rows][seen].T]
     shares = {name: _explained(shape[seen], own, left) for name, shape in _shapes(series.time, force).items()}
     best = max(shares, key=lambda name: abs(shares[name]))
     if abs(shares[best]) < _EXPLAINED:

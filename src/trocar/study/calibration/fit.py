@@ -33,7 +33,8 @@ from trocar.study.calibration.response import Response
 PRIOR = 3.0  # standard deviation of a free coordinate before the data: a factor of twenty
 STEP = 1e-4
 STEP_OF_SHEETS = 1e-2  # sheets are fitted to their layers anew, which is smooth to 1e-5 or so
-_SETTLED = 0.03  # relative change of every sigma at which the fit is not repeated
+_SETTLED = 0.03  # change of every sigma's logarithm at which the fit is not repeated
+_SETTLED_ALONE = 0.5  # where all rows share one, which then weighs against nothing but the prior
 _MOST_ROUNDS = 4
 _MOST_EVALUATIONS = 60
 _ENDS = 1e-7  # relative: a sum of squares of a hundred is then minimal within a hundredth of a standard error
@@ -146,12 +147,12 @@ def fit(problem: Problem, watch: Watch = lambda _: None) -> Fitted:
         )
         free = np.asarray(found.x, dtype=np.float64)
         settled = np.array([one.rms for one in work.noise(free)])
-        if problem.noise_depth is not None or (len(settled) == 1 and problem.noise_force is None):
-            break  # weights are known, or one that all rows share
+        if problem.noise_depth is not None:
+            break
         settled = work.without_force(settled, free)
-        changed = np.abs(settled / sigmas - 1).max()
+        changed = np.abs(np.log(settled / sigmas)).max()
         sigmas = settled
-        if changed < _SETTLED:
+        if changed < (_SETTLED_ALONE if len(settled) == 1 and problem.noise_force is None else _SETTLED):
             break
     rows, at_once = work.predict(free)
     offsets = work.offsets(rows)

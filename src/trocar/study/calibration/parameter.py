@@ -14,6 +14,7 @@ from math import exp, log
 from typing import Any
 
 from trocar.errors import InputError
+from trocar.study.cases.key_table import Words
 from trocar.tissues.layer import LARGEST_WEIGHT, LONGEST_TIME, SHORTEST_TIME, Layer
 from trocar.tissues.tissue import Tissue
 from trocar.units import KILOPASCAL, MILLIMETRE
@@ -105,7 +106,7 @@ def parameters(names: Sequence[str], specimen: Specimen) -> tuple[Parameter, ...
             no logarithm.
     """
     if not names:
-        raise InputError("--fit", "at least one parameter, such as fat.young_modulus", "none")
+        raise InputError("--fit", "at least one parameter, such as fat.young_modulus", Words("none"))
     for name in names:
         if names.count(name) > 1:
             raise InputError("--fit", "every parameter once", name)
@@ -187,7 +188,7 @@ def _term(name: str, specimen: Specimen, place: int, term: int, part: str) -> Pa
         raise InputError(
             f"--fit {name}",
             f"a term of the layer's Prony series, which has {len(series)}",
-            f"prony[{term}]",
+            Words(f"prony[{term}]"),
             "write prony = [[g, tau_s], ...] with starting values into the case file",
         )
     which = 0 if part == "g" else 1
@@ -220,7 +221,7 @@ def _sheets(name: str, specimen: Specimen) -> Stack:
         raise InputError(
             f"--fit {name}",
             "--model wave-membrane, whose sheets have a tension and a foundation",
-            "another model",
+            Words("another model"),
         )
     return specimen.stack
 

@@ -8,10 +8,11 @@ from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.study.calibration.fit import Problem
 from trocar.study.calibration.reading import FEWEST_ROWS
+from trocar.study.cases.key_table import Words
 from trocar.units import MILLIMETRE
 
 _FAR = 300.0  # a start whose compliance is this many times off is a wrong unit, or no start
-_ODD = 30.0  # one this far off is looked at twice: are the columns exchanged?
+_ODD = 20.0  # one this far off is looked at twice: are the columns exchanged?
 _NEAR = 3.0  # exchanged, it would be this near
 _LEAST_CHANGE = 0.1  # of the largest force, within the rows that are fitted
 
@@ -36,7 +37,7 @@ def check_seen(problem: Problem) -> None:
         raise InputError(
             where,
             "a force that changes by a tenth of the largest in the rows that are fitted",
-            "a force that stands still",
+            Words("a force that stands still"),
             "hold out less, record the ramp too, or say --zeroed where the displacement's zero is true",
         )
 
@@ -60,14 +61,15 @@ def check_scale(problem: Problem, rows: FloatArray) -> None:
         return
     exchanged = MILLIMETRE * np.ptp(force) / (np.ptp(depth) / MILLIMETRE) / expected
     where = f"{measurement.source}: displacement_mm"
-    said = f"{measured / MILLIMETRE:.3g} mm a newton, {times:.2g} times that"
+    said = Words(f"{measured / MILLIMETRE:.3g} mm a newton, {times:.2g} times that")
     wanted = f"about {expected / MILLIMETRE:.3g} mm a newton, as the case file's layers give"
     if 1 / _NEAR < exchanged < _NEAR:
         raise InputError(
             where,
             wanted,
             said,
-            "the columns of force and displacement look exchanged: name them the other way round",
+            "the columns of force and displacement look exchanged: name them the other way round; if not, write "
+            "moduli nearer to the truth into the case file",
         )
     if not 1 / _FAR < times < _FAR:
         raise InputError(

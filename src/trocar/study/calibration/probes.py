@@ -48,12 +48,22 @@ class Probes:
             result[here] = moved[np.arange(len(moved)), self.axes[here]]
         return self.signs * result
 
+    def moved(self, lowest: FloatArray, far: float) -> bool:
+        """Return whether a depth is read away from its face's lowest point.
+
+        Args:
+            lowest: point of each layer's upper face [m], shape (layers, 3).
+            far: how far away is away [m].
+        """
+        depths = self.signs < 0
+        apart = self.points[depths] - lowest[self.faces[depths]]
+        return bool((np.linalg.norm(apart, axis=1) > far).any())
+
 
 def probes(measurement: Measurement, tissue: Tissue, lowest: FloatArray) -> Probes:
     """Return the probes of a measurement.
 
-    A depth is read where the face is lowest as the fit starts: round a maximum a small shift changes nothing of first
-    order.
+    A depth is read where the face is lowest: round a maximum a small shift changes nothing of first order.
 
     Args:
         measurement: whose rows.

@@ -23,6 +23,7 @@ from trocar.model import FloatArray
 from trocar.study.calibration.columns import Columns, read_columns
 from trocar.study.calibration.measurement import DEPTH, Measurement, Readings
 from trocar.study.cases.experiment import Case
+from trocar.study.cases.key_table import Words
 from trocar.units import MILLIMETRE
 
 TIME, FORCE, DISPLACEMENT = "time_s", "force_n", "displacement_mm"
@@ -87,7 +88,7 @@ def _check_time(table: Columns, time: FloatArray) -> None:
         raise InputError(
             table.where(row, TIME),
             f"no gap: rows elsewhere are {np.median(steps):.3g} s apart",
-            f"{steps[row - 1]:.3g} s without a row",
+            Words(f"{steps[row - 1]:.3g} s without a row"),
             "give the part before or after it",
         )
 
@@ -95,7 +96,9 @@ def _check_time(table: Columns, time: FloatArray) -> None:
 def _check_force(table: Columns, force: FloatArray) -> None:
     where = f"{table.file}: {FORCE}"
     if np.ptp(force) <= _LEAST_CHANGE * np.abs(force).max():
-        raise InputError(where, "a force that changes", f"{force[0]:g} N all along", "record the ramp too")
+        raise InputError(
+            where, "a force that changes", Words(f"{force[0]:g} N all along"), "record the ramp too"
+        )
     if force.max() <= -force.min():
         row = int(force.argmin())
         raise InputError(
@@ -110,12 +113,14 @@ def _check_depth(table: Columns, force: FloatArray, series: Readings, case: Case
     column = DISPLACEMENT if series.name == DEPTH else f"{series.name}_mm"
     where, depth = f"{table.file}: {column}", series.value
     if series.range == 0:
-        raise InputError(where, "a displacement that changes", f"{depth[0] / MILLIMETRE:g} mm all along")
+        raise InputError(
+            where, "a displacement that changes", Words(f"{depth[0] / MILLIMETRE:g} mm all along")
+        )
     if np.corrcoef(force, depth)[0, 1] < 0:
         raise InputError(
             where,
             "a displacement that grows with the force: into the tissue is positive",
-            "one that falls as the force grows",
+            Words("one that falls as the force grows"),
             "turn the sign of the column, or exchange the two columns if they are swapped",
         )
     thickness = case.tissue.thickness
@@ -124,14 +129,14 @@ def _check_depth(table: Columns, force: FloatArray, series: Readings, case: Case
         raise InputError(
             table.where(row, column),
             f"less than the block's thickness, {thickness / MILLIMETRE:g} mm",
-            f"a travel of {series.range / MILLIMETRE:.4g} mm",
+            Words(f"a travel of {series.range / MILLIMETRE:.4g} mm"),
             "are these micrometres, or are the force's and the displacement's columns exchanged?",
         )
     if series.range < _LEAST_DEPTH:
         raise InputError(
             where,
             "a travel of at least 0.001 mm",
-            f"{series.range / MILLIMETRE:.3g} mm",
+            Words(f"{series.range / MILLIMETRE:.3g} mm"),
             "are these metres, or are the force's and the displacement's columns exchanged?",
         )
     touching = np.maximum.accumulate(force) > _FREE * force.max()
@@ -140,7 +145,7 @@ def _check_depth(table: Columns, force: FloatArray, series: Readings, case: Case
         raise InputError(
             table.where(first - 1, column),
             "no travel before there is a force",
-            f"{np.ptp(depth[:first]) / MILLIMETRE:.3g} mm",
+            Words(f"{np.ptp(depth[:first]) / MILLIMETRE:.3g} mm"),
             f"begin the record at touch, near line {table.lines[first]}",
         )
 

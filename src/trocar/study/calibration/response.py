@@ -23,6 +23,7 @@ from trocar.study.calibration.unit_response import (
     spectrum_serves,
 )
 from trocar.study.cases.experiment import Case
+from trocar.study.cases.key_table import Words
 from trocar.study.cases.tool import Tip
 from trocar.study.deflection import deflections, search_points
 from trocar.study.models import MODELS, MOST_MEMBRANE_MODES, AnyModel, series_modes
@@ -64,7 +65,9 @@ def check_model(case: Case, model: str) -> None:
     if len(case.tools) != 1:
         raise InputError("tool", "one tool", len(case.tools), "leave one of them out of the case file")
     if case.tissue.large_deformation:
-        raise InputError("law", "linear layers", "others", "calibration is for small strain; leave law out")
+        raise InputError(
+            "law", "linear layers", Words("others"), "calibration is for small strain; leave law out"
+        )
     if model == "fea" and case.rigid:
         raise InputError("--model", "a wave model, which takes a rigid tip", model)
     remembers = bool(case.tissue.relaxation_times)
@@ -101,7 +104,7 @@ def first_specimen(case: Case, model: str, names: tuple[str, ...]) -> Specimen:
 
 
 def response(
-    case: Case, model: str, measurement: Measurement, start: Specimen, wanted: tuple[Parameter, ...]
+    case: Case, model: str, measurement: Measurement, near: Specimen, wanted: tuple[Parameter, ...]
 ) -> tuple[Response, Probes]:
     """Return what predicts the rows of a measurement, and where it reads.
 
@@ -109,7 +112,7 @@ def response(
         case: block and tool; its own force does not matter.
         model: one of `MODEL_NAMES`.
         measurement: the force, and what is read.
-        start: where the fit begins.
+        near: like what will be fitted: depths are read at its faces' lowest points.
         wanted: parameters that will change.
 
     Raises:
@@ -117,14 +120,16 @@ def response(
     """
     build = builder(case, model)
     if case.rigid and any(series.axis < 2 for series in measurement.series):
-        raise InputError("--markers", "uz_mm alone under a rigid tip", "ux_mm or uy_mm", "leave them out")
-    read = probes(measurement, case.tissue, _lowest(case, build, start))
+        raise InputError(
+            "--markers", "uz_mm alone under a rigid tip", Words("ux_mm or uy_mm"), "leave them out"
+        )
+    read = probes(measurement, case.tissue, lowest_points(case, model, near))
     creeps = bool(case.tissue.relaxation_times)
     if (creeps or case.sampling.dynamic) and measurement.force[0] > _UNLOADED * measurement.peak:
         raise InputError(
             f"{measurement.source}: force_n",
             "a record that begins before the load, where the tissue remembers or moves",
-            f"{measurement.force[0]:g} N in its first row",
+            Words(f"{measurement.force[0]:g} N in its first row"),
         )
     if case.sampling.dynamic:
         return Moving(build, case, measurement, read), read
@@ -164,12 +169,18 @@ def builder(case: Case, model: str) -> Build:
     return build
 
 
-def _lowest(case: Case, build: Build, start: Specimen) -> FloatArray:
-    """Return the lowest point of each layer's upper face where the fit starts, relaxed [m], shape (layers, 3)."""
+def lowest_points(case: Case, model: str, specimen: Specimen) -> FloatArray:
+    """Return the lowest point of each layer's upper face when all is relaxed [m], shape (layers, 3).
+
+    Args:
+        case: block and tool.
+        model: one of `MODEL_NAMES`.
+        specimen: the layers or sheets.
+    """
     tool, names = case.tools[0], case.tissue.layer_names
     if case.rigid:
         return np.tile([*tool.position, 0.0], (len(names), 1))
-    model, load = build(at_rate(start, 0.0)), (tool.press(1.0),)
+    built, load = builder(case, model)(at_rate(specimen, 0.0)), (tool.press(1.0),)
     points = search_points(case.size, load)
-    lowest: FloatArray = points[deflections(model, model.static(load), points, names).argmax(axis=1)]
+    lowest: FloatArray = points[deflections(built, built.static(load), points, names).argmax(axis=1)]
     return lowest

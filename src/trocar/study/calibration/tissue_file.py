@@ -8,6 +8,7 @@ from pathlib import Path
 from trocar.errors import InputError
 from trocar.study.calibration.calibration import Calibration
 from trocar.study.calibration.identifiability import Estimate
+from trocar.study.cases.key_table import Words
 from trocar.study.report.table import percent
 from trocar.study.writing.whole_file import write_whole
 from trocar.tissues.layer import Layer
@@ -37,7 +38,7 @@ def check_tissue_file(out: Path, names: tuple[str, ...]) -> None:
     if out.suffix != ".toml":
         raise InputError("--out", "a file name that ends with .toml", str(out))
     if out.exists() and not (out.is_file() and _begins(out)):
-        got = "a folder" if out.is_dir() else "another file"
+        got = Words("a folder" if out.is_dir() else "another file")
         raise InputError(
             f"--out {out}", "a new file, or an earlier calibration's", got, "choose another name"
         )

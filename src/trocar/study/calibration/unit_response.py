@@ -129,7 +129,7 @@ class SpectrumUnits:
                 self._along[:, node] = np.where(
                     probes.axes == 0, series.along_x(x, probes.points), series.along_y(y, probes.points)
                 )
-        self._vertical[aside] = 0.0
+        self._vertical[aside], self._along[~aside] = 0.0, 0.0
         self._signs = probes.signs[:, None]
 
     def __call__(self, specimen: Specimen) -> FloatArray:

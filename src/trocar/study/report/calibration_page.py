@@ -13,6 +13,7 @@ from trocar import __version__
 from trocar.errors import InputError
 from trocar.study.calibration.calibration import Calibration
 from trocar.study.calibration.identifiability import VAGUE, Estimate
+from trocar.study.cases.key_table import Words
 from trocar.study.report.figures.agreement import MICROMETRE
 from trocar.study.report.figures.calibration import (
     fit_alt,
@@ -191,10 +192,10 @@ def check_report(out: Path) -> tuple[Path, Path | None]:
     alone = out.suffix == ".html"
     page = out if alone else out / REPORT
     if not alone and out.exists() and not out.is_dir():
-        raise InputError(f"--report {out}", "a folder, or a file that ends with .html", "another file")
+        raise InputError(f"--report {out}", "a folder, or a file that ends with .html", Words("another file"))
     if page.exists() and not (page.is_file() and _OURS.search(page.read_bytes()[:_HEAD_BYTES])):
         raise InputError(
-            f"--report {page}", "a new file, or an earlier report", "another file", "name another"
+            f"--report {page}", "a new file, or an earlier report", Words("another file"), "name another"
         )
     return page, None if alone else out
 
