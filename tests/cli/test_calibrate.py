@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 import tomllib
 from pathlib import Path
 
@@ -97,3 +98,33 @@ def test_the_examples_say_that_they_are_synthetic_and_their_cases_do_not_know_th
         assert place.read_text().startswith("# SYNTHETIC"), place.name
     start = tomllib.loads((EXAMPLES / "phantom.toml").read_text())["layer"]
     assert [layer["young_modulus_kpa"] for layer in start] == [100, 10]
+
+
+def commands(page):
+    """Yield the console lines of a how-to."""
+    text = (EXAMPLES.parent / "docs" / "how-to" / page).read_text(encoding="utf-8")
+    return [shlex.split(line)[2:] for line in text.splitlines() if line.startswith("$ trocar ")]
+
+
+@pytest.mark.parametrize("arguments", commands("calibrate-a-tissue.md"), ids=lambda one: " ".join(one[1:7]))
+def test_the_commands_of_the_how_to_work(monkeypatch, tmp_path, capsys, arguments):
+    (tmp_path / "examples").symlink_to(EXAMPLES)
+    monkeypatch.chdir(tmp_path)
+    assert main(arguments) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    page = (EXAMPLES.parent / "docs" / "how-to" / "calibrate-a-tissue.md").read_text(encoding="utf-8")
+    if "skin.young_modulus" in arguments:  # the page quotes what both of these say
+        told = [
+            " ".join(block.split())
+            for block in re.findall(r"```text\n(The data.*?)```", page, flags=re.DOTALL)
+        ]
+        assert any(one in shown for one in told), shown
+
+
+def test_every_flag_is_in_the_reference(capsys):
+    assert main(["calibrate", "--help"]) == 0
+    flags = set(re.findall(r"--[a-z-]+", capsys.readouterr().out)) - {"--help"}
+    reference = (EXAMPLES.parent / "docs" / "reference" / "command-line.md").read_text(encoding="utf-8")
+    section = reference.split("## `trocar calibrate", 1)[1].split("\n## ", 1)[0]
+    assert len(flags) > 10
+    assert {flag for flag in flags if f"`{flag}" not in section} == set()
