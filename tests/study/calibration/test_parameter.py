@@ -6,7 +6,7 @@ import pytest
 
 from pressed_pads import pad
 from trocar.errors import InputError
-from trocar.study.calibration.parameter import Specimen, parameters, split
+from trocar.study.calibration.parameter import Specimen, of_sheets, parameters, split
 from trocar.study.calibration.response import first_specimen
 
 CASE = pad(prony=((0.5, 0.3), (0.2, 3.0)), prestress_x=100.0, prestress_y=200.0)
@@ -51,7 +51,7 @@ def test_sheets_have_a_tension_and_a_foundation():
     names = ("skin.tension", "foundation")
     specimen = first_specimen(pad(), "wave-membrane", names)
     for one in parameters(names, specimen):
-        assert one.of_sheets
+        assert of_sheets(one.name)
         assert one.get(one.put(specimen, 3.0)) == 3.0
     with pytest.raises(InputError, match="parameters of sheets alone"):
         first_specimen(pad(), "wave-membrane", (*names, "skin.young_modulus"))

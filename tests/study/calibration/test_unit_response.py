@@ -46,7 +46,7 @@ def test_finite_elements_say_the_same_within_their_mesh():
     case = pad()
     read, specimen = watched(case), Specimen(tissue=case.tissue)
     elements = ModelUnits(builder(case, "fea"), case.tools[0].press(1.0), read)(specimen)
-    # 0.2 % is what `docs/explanation/range-of-validity.md` states of a depth
+    # 0.2 % is what `study/models.py` states of the elements' default mesh
     assert np.abs(SpectrumUnits(case, read)(specimen) - elements).max() < 0.003 * elements[0]
 
 

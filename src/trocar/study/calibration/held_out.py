@@ -70,8 +70,9 @@ class HeldOut:
             else f"{self.ratio:.0f} times what its noise and the intervals let expect: do not trust the values beyond "
             "the rows they were fitted to"
         )
+        zero = ", its own zero taken off" if self.own_zero else ""
         return (
-            f"In {self.source}, which the fit did not see, the depth is predicted to "
+            f"In {self.source}, which the fit did not see{zero}, the depth is predicted to "
             f"{self.rms / MILLIMETRE:.2g} mm ({percent(self.share)} of its largest), {verdict}."
         )
 

@@ -61,16 +61,6 @@ class Parameter:
     high: float
     ratio: bool = False
 
-    @property
-    def of_sheets(self) -> bool:
-        """Whether it belongs to a membrane and not to a layer."""
-        return self.name == FOUNDATION or self.name.endswith(".tension")
-
-    @property
-    def layer(self) -> str:
-        """Name of the layer; empty for the foundation."""
-        return "" if self.name == FOUNDATION else split(self.name)[0]
-
     def free(self, value: float) -> float:
         """Return the free coordinate of a value [SI]."""
         return log(value / (0.5 - value)) if self.ratio else log(value)
@@ -83,6 +73,11 @@ class Parameter:
         """Return how far the free coordinate may go from that of a starting value [SI]."""
         at = self.free(start)
         return max(self.free(self.low), at - FARTHEST), min(self.free(self.high), at + FARTHEST)
+
+
+def of_sheets(name: str) -> bool:
+    """Return whether a parameter belongs to a membrane and not to a layer."""
+    return name == FOUNDATION or name.endswith(".tension")
 
 
 def split(name: str) -> tuple[str, str]:

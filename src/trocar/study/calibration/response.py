@@ -12,7 +12,7 @@ from trocar.model import FloatArray
 from trocar.study.calibration.measurement import Measurement
 from trocar.study.calibration.memory import Creeping, at_rate
 from trocar.study.calibration.motion import Moving, Sphere
-from trocar.study.calibration.parameter import Parameter, Specimen
+from trocar.study.calibration.parameter import Parameter, Specimen, of_sheets
 from trocar.study.calibration.probes import Probes, probes
 from trocar.study.calibration.unit_response import (
     Build,
@@ -90,7 +90,7 @@ def first_specimen(case: Case, model: str, names: tuple[str, ...]) -> Specimen:
     Raises:
         InputError: parameters of sheets and of layers are mixed.
     """
-    sheets = [name for name in names if name == "foundation" or name.endswith(".tension")]
+    sheets = [name for name in names if of_sheets(name)]
     if not sheets or model != "wave-membrane":
         return Specimen(tissue=case.tissue)
     if len(sheets) < len(names):

@@ -8,6 +8,7 @@ from pathlib import Path
 from trocar.errors import InputError
 from trocar.study.calibration.calibration import Calibration
 from trocar.study.calibration.identifiability import Estimate
+from trocar.study.calibration.parameter import of_sheets
 from trocar.study.cases.key_table import Words
 from trocar.study.report.table import percent
 from trocar.study.writing.whole_file import write_whole
@@ -42,7 +43,7 @@ def check_tissue_file(out: Path, names: tuple[str, ...]) -> None:
         raise InputError(
             f"--out {out}", "a new file, or an earlier calibration's", got, "choose another name"
         )
-    sheets = [name for name in names if name == "foundation" or name.endswith(".tension")]
+    sheets = [name for name in names if of_sheets(name)]
     if sheets:
         raise InputError(
             "--out",

@@ -142,7 +142,7 @@ def _ticks(widest: float) -> tuple[float, ...]:
     """Return ratios to mark on an axis that reaches this many decades to either side of 1."""
     if widest > 1:
         return tuple(10.0**place for place in range(-4, 5))
-    if widest > 0.2:
+    if widest > 0.35:
         return 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0
     return (0.6, 0.8, 1.0, 1.25, 1.6) if widest > 0.06 else (0.9, 0.95, 1.0, 1.05, 1.1)
 
