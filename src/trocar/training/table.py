@@ -11,8 +11,7 @@ from __future__ import annotations
 import csv
 import json
 import os
-from collections.abc import Callable, Iterator
-from contextlib import suppress
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
@@ -38,6 +37,7 @@ from trocar.simulation import (
     TOUCH_PRESENT,
     TOUCH_TOUCHING,
 )
+from trocar.study.writing.whole_file import write_whole
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.session import Recording, replayed
 from trocar.training.tasks.progress import Progress
@@ -116,8 +116,8 @@ def write_table(path: str | os.PathLike[str], task: Task, recording: Recording) 
         lines.writerow(COLUMNS)
         lines.writerows(table.rows)
 
-    _write_whole(place, as_csv)
-    _write_whole(beside, lambda stream: json.dump(table.constants, stream, indent=2, allow_nan=False))
+    write_whole(place, as_csv)
+    write_whole(beside, lambda stream: json.dump(table.constants, stream, indent=2, allow_nan=False))
     return beside
 
 
@@ -161,16 +161,3 @@ def _constants(task: Task, dt: float, attempt: Attempt, progress: Progress) -> d
         **{name: value if isfinite(value) else None for name, value in found.items()},
         "tip_sections_m2": [float(area) for area in attempt.sections],
     }
-
-
-def _write_whole(place: Path, write: Callable[[TextIO], None]) -> None:
-    partial = place.with_name(f".{place.name}.partial-{os.getpid()}")
-    try:
-        with partial.open("w", encoding="utf-8", newline="") as stream:
-            write(stream)
-            stream.flush()
-            os.fsync(stream.fileno())
-        partial.replace(place)
-    finally:
-        with suppress(FileNotFoundError):
-            partial.unlink()

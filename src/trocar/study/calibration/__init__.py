@@ -1,0 +1,1 @@
+"""Calibration: parameters of a tissue from measured force and displacement, and how far the data tell them."""
