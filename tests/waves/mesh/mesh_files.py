@@ -17,7 +17,7 @@ def meshio():
     if find_spec("meshio") is None:
         if os.environ.get("CI") == "true":
             pytest.fail("meshio is missing; it belongs to the development environment")
-        pytest.skip("meshio is not installed (pip install 'trocar[mesh]')")
+        pytest.skip("meshio is not installed")
     return import_module("meshio")
 
 

@@ -193,12 +193,3 @@ def test_a_million_nodes_are_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(mesh_file, "LARGEST_FILE", 1_000)
     with pytest.raises(InputError, match="at most 0 MB"):
         _read(path)
-
-
-def test_meshio_is_asked_for_by_name(tmp_path, monkeypatch):
-    def missing(name):
-        raise ImportError(name)
-
-    monkeypatch.setattr(mesh_file, "import_module", missing)
-    with pytest.raises(InputError, match=r"pip install 'trocar\[mesh\]'"):
-        _read(tmp_path / "a.vtu")

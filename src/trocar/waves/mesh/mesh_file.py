@@ -1,4 +1,4 @@
-"""What a mesh file says: nodes, elements and named groups of them, through meshio (an optional extra).
+"""What a mesh file says: nodes, elements and named groups of them, through meshio.
 
 Quadratic elements give their corners; their edges become straight.
 """
@@ -114,12 +114,7 @@ def read_file(path: Path) -> MeshFile:
 
 def _parsed(path: Path) -> Any:
     """Return what meshio makes of a file."""
-    try:
-        meshio = import_module("meshio")
-    except ImportError:
-        raise InputError(
-            str(path), "meshio to read it with", "none installed", "pip install 'trocar[mesh]'"
-        ) from None
+    meshio = import_module("meshio")  # half a second: only who reads a mesh waits for it
     if path.suffix.lower() not in ENDINGS:
         raise InputError(
             str(path),
