@@ -1,8 +1,8 @@
 """Print every table of the study's third leg, measured tissue, without the rest of the study.
 
-Run: python bench/measured.py DIR [--figures OUT], or python bench/measured.py --disc. DIR holds the sets as sub-folders;
-OUT takes the figures. --disc needs no data: how far the bonded disc's force depends on mesh and bulk modulus, and how
-its stiffness compares with Gent and Lindley's shape factor.
+Run: python bench/measured.py DIR [--figures OUT], or python bench/measured.py --disc. DIR holds the sets as
+sub-folders; OUT takes the figures. --disc needs no data: how far the bonded disc's force depends on mesh and bulk
+modulus, and how its stiffness compares with Gent and Lindley's shape factor.
 """
 
 from __future__ import annotations

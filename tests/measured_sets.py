@@ -41,6 +41,20 @@ def write_disc(folder: Path, name: str, *, strain: np.ndarray, load: np.ndarray)
     return path
 
 
+def write_pull(folder: Path, material: str, stretch: np.ndarray, stress_mpa: np.ndarray) -> Path:
+    """Write a silicone in tension, semicolons between its cells."""
+    place = folder / "soft_robotics_elastomers_odbl" / "data"
+    place.mkdir(parents=True, exist_ok=True)
+    head = [
+        "PARAMETER;INFO;URL;;",
+        "Time (s);True Strain;True Stress (MPa);Engineering Strain;Engineering Stress (MPa)",
+    ]
+    rows = [f"0;0;0;{x - 1:.6f};{p:.8f}" for x, p in zip(stretch, stress_mpa, strict=True)]
+    path = place / f"{material.replace(' ', '_')}.csv"
+    path.write_text("\n".join([*head, *rows]) + "\n")
+    return path
+
+
 def write_limbs(folder: Path, rows: list[dict[str, object]]) -> Path:
     """Write a table of limbs with one more column than is read."""
     place = folder / "multis_limb_indentation_mit"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from measured_sets import measured_folder
@@ -47,6 +49,10 @@ def test_the_other_session_is_foretold() -> None:
     assert found.judged < 5e-3
     assert found.counts == (2, 1)
     assert foretell_holds(holds[:2]) is None
+    brief = replace(
+        holds[2], **{key: getattr(holds[2], key)[:120] for key in ("time", "force", "indentation")}
+    )
+    assert foretell_holds([*holds[:2], brief]) is None  # it was let go five seconds after its peak
 
 
 def test_real_holds_are_foretold_within_their_spread() -> None:

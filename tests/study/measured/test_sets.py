@@ -10,7 +10,7 @@ from trocar.errors import InputError
 from trocar.study.measured.phantom import thinner
 from trocar.study.measured.sets import read_sets
 
-STRAIN = np.linspace(0, 0.6, 20)
+STRAIN = np.linspace(0, 0.667, 20)
 LIMB = {
     "probe_area_mm2": 360, "SubID": "006", "Location": "LA_A", "BMI": 27, "MaxForce": 4, "TotalStrain": 0.2,
     "Thickness": 20, "Skin": 2, "Fat": 4, "Muscle": 14,
@@ -51,6 +51,25 @@ def test_a_disc_without_a_name_is_refused(tmp_path):
     write_disc(tmp_path, "disc7", strain=STRAIN, load=STRAIN)
     with pytest.raises(InputError, match=r"disc7.csv: expected a name such as EF10_50T_A1.csv"):
         read_sets(tmp_path)
+
+
+def test_a_disc_that_is_hardly_pressed_is_refused(tmp_path):
+    write_disc(tmp_path, "EF10_0T_A1", strain=0.5 * STRAIN, load=STRAIN)
+    with pytest.raises(
+        InputError, match=r"expected a compression that reaches 66 % of the height, got '33.4 %'"
+    ):
+        read_sets(tmp_path)
+
+
+def test_what_never_pulls_or_presses_is_refused(tmp_path):
+    stretch = np.linspace(1, 2, 21)
+    write_strip(tmp_path / "strips", "pig04_skin", stretch, 1 - stretch)
+    with pytest.raises(InputError, match=r"10 rows or more up to the largest stress"):
+        read_sets(tmp_path / "strips")
+    table = np.column_stack([np.arange(12.0), -np.ones(12), np.ones(12)])
+    write_holds(tmp_path / "holds", {("230407", "FF1"): table})
+    with pytest.raises(InputError, match=r"line 2, test FF1: expected a force above 0 somewhere, got -1.0"):
+        read_sets(tmp_path / "holds")
 
 
 def test_limbs_are_read_in_si_and_gaps_are_counted(tmp_path):

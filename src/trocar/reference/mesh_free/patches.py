@@ -28,7 +28,7 @@ from numba import njit
 
 from trocar.errors import InputError
 from trocar.model import FloatArray
-from trocar.reference.mesh import IntArray
+from trocar.reference.grid import IntArray
 from trocar.reference.mesh_free.cloud import Cloud
 from trocar.reference.mesh_free.cut import hidden
 from trocar.reference.mesh_free.shape import felt_in_cell, shape_functions

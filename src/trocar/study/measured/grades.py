@@ -49,6 +49,8 @@ def compare_grades(pressed: PhantomResults, pulls: Sequence[Pull]) -> tuple[Grad
         pull = pulled[name]
         rows = (pull.stretch >= _PULLED[0]) & (pull.stretch <= _PULLED[1])
         stretch = pull.stretch[rows]
+        if not stretch.size:
+            continue
         fitted = fit_neo_hookean(lambda law, mu, at=stretch: uniaxial(law, mu, at), pull.stress[rows])  # type: ignore[misc]
         found.append(
             Grade(

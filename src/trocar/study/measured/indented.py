@@ -75,7 +75,7 @@ class LimbResults:
         baselines: without mechanics, and with each person's own stiffness.
         neighbours: median relative difference of force between trials of two people at one site that are alike in
             probe, thicknesses and indentation, over the square root of 2 [1].
-        pairs: how many such trials were found.
+        pairs: how many trials have such a neighbour.
     """
 
     limbs: Indentations

@@ -19,6 +19,9 @@ from trocar.units import MILLIMETRE
 
 FOLDER = "ecoflex_phantom_compression_ccby"
 COLUMNS = ("Time (s)", "Compression (mm)", "Load (N)")
+LEAST_STRAIN = 0.66
+"""Compression over height that a disc must reach [1]: laws are judged to two thirds."""
+
 _NAME = re.compile(r"(EF\d+_[\d_]+T)_([AB])\d+")
 
 
@@ -66,7 +69,7 @@ def read_compression(path: Path) -> Compression:
         )
     table = read_measured_table(path, COLUMNS)
     table.rising("Time (s)")
-    return Compression(
+    disc = Compression(
         composition=name[1],
         specimen=name[2],
         diameter=_length(table, "Cylinder Diameter"),
@@ -74,6 +77,14 @@ def read_compression(path: Path) -> Compression:
         compression=table.numbers("Compression (mm)", MILLIMETRE),
         load=table.numbers("Load (N)"),
     )
+    if not LEAST_STRAIN <= disc.strain.max() < 1:
+        raise InputError(
+            path.name,
+            f"a compression that reaches {100 * LEAST_STRAIN:.0f} % of the height",
+            f"{100 * disc.strain.max():.3g} %",
+            "take the disc out of the folder",
+        )
+    return disc
 
 
 def read_phantoms(folder: Path) -> tuple[Compression, ...]:

@@ -67,6 +67,13 @@ def read_holds(folder: Path) -> tuple[Hold, ...]:
                 "sort the rows of each test",
             )
         rows = slice(start, end)
+        if not force[rows].max() > 0:
+            raise InputError(
+                f"{table.file}, line {table.lines[start]}, test {keys[start][1]}",
+                "a force above 0 somewhere",
+                float(force[rows].max()),
+                "pressing counts positive",
+            )
         holds.append(
             Hold(
                 session=keys[start][0],

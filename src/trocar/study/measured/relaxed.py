@@ -24,6 +24,7 @@ from trocar.study.measured.relaxation import Hold
 from trocar.tissues.layer import Prony
 
 FITTED, JUDGED = "230407", "230411"
+LONGEST = 8.5  # [s] after the peak, to which a hold is followed; shorter ones are left out
 MOMENTS = (0.5, 1.0, 2.0, 5.0, 8.0)
 """After the peak [s]: where measured and foretold are tabled."""
 
@@ -66,11 +67,14 @@ class ForetoldHolds:
 
 
 def foretell_holds(holds: Sequence[Hold]) -> ForetoldHolds | None:
-    """Fit one session and judge the other; None where one of them is not there."""
-    sessions = [[hold for hold in holds if hold.session == name] for name in (FITTED, JUDGED)]
+    """Fit one session and judge the other; None where one of them has none that lasts."""
+    sessions = [
+        [hold for hold in holds if hold.session == name and hold.time[-1] - hold.time[hold.peak] >= LONGEST]
+        for name in (FITTED, JUDGED)
+    ]
     if not all(sessions):
         return None
-    since = np.arange(0.0, 8.55, 0.1)
+    since = np.arange(0.0, LONGEST + 0.05, 0.1)
     measured = [np.array([_since_peak(hold, hold.force, since) for hold in session]) for session in sessions]
     count = len(_START)
 

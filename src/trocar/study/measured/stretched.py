@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.study.measured.fit import Fitted, fit_neo_hookean, fit_ogden
 from trocar.study.measured.homogeneous import biaxial, uniaxial
@@ -52,8 +53,14 @@ class FittedRubber:
 
 
 def foretell_rubber(rubber: Rubber) -> tuple[FittedRubber, ...]:
-    """Fit neo-Hookean and Ogden laws of one and two terms to Treloar; judge them, and Ogden's own, on Kawabata."""
+    """Fit neo-Hookean and Ogden laws of one and two terms to Treloar; judge them, and Ogden's own, on Kawabata.
+
+    Raises:
+        InputError: no stretch is small enough for neo-Hookean.
+    """
     small = rubber.stretch <= SMALL
+    if not small.any() or not (rubber.stretches <= SMALL).all(axis=1).any():
+        raise InputError("rubber", f"stretches up to {SMALL:g} in both experiments", "none")
     near = rubber.stretch[small]
     found = [
         _judged(

@@ -18,6 +18,7 @@ from trocar.study.measured.table import read_measured_table
 from trocar.units import KILOPASCAL
 
 FOLDER = "sow_perineum_tension_gpl3"
+_LEAST_ROWS = 10
 _NAME = re.compile(r"(pig\d+)_(\w+)")
 
 
@@ -47,10 +48,17 @@ def read_strip(path: Path) -> Strip:
     name = _NAME.fullmatch(path.stem)
     if name is None:
         raise InputError(path.name, "a name such as pig04_skin.csv", path.stem, "name animal and tissue")
-    table = read_measured_table(path, ("time_s", "stretch", "nominal_stress_kPa"), least_rows=10)
+    table = read_measured_table(path, ("time_s", "stretch", "nominal_stress_kPa"), least_rows=_LEAST_ROWS)
     table.rising("time_s")
     stress = table.numbers("nominal_stress_kPa", KILOPASCAL)
     before = slice(int(np.argmax(stress)) + 1)
+    if before.stop < _LEAST_ROWS or not stress.max() > 0:
+        raise InputError(
+            path.name,
+            f"{_LEAST_ROWS} rows or more up to the largest stress, which is above 0",
+            f"{before.stop} rows",
+            "tension counts positive",
+        )
     return Strip(
         animal=name[1],
         tissue=name[2].replace("_", " "),

@@ -132,8 +132,8 @@ def limb_table(results: LimbResults) -> Table:
         note=f"Fitted to {fitted} other people. Linear layers: shear moduli of skin, fat and muscle {moduli} kPa, "
         f"the same everywhere. Exponential layers: b = {three(results.steepness)}; below zero they soften, which no "
         "tissue does: an operator presses until a force is reached, so indentation tells little of it. "
-        f"The last row is the median over {results.pairs} pairs, over √2. Trials without all thicknesses are left out: "
-        f"{results.limbs.incomplete}.",
+        f"Last row: the median of {results.pairs} trials that have such a neighbour, over √2. Trials without all "
+        f"thicknesses are left out: {results.limbs.incomplete}.",
     )
 
 

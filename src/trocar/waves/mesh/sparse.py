@@ -54,7 +54,7 @@ def dissected(places: FloatArray, matrix: sp.csr_array) -> list[Part]:
     def touching(nodes: IntArray, others: np.int8) -> np.ndarray:
         rows = pattern[nodes]
         seen = np.repeat(np.arange(len(nodes)), np.diff(rows.indptr))[side[rows.indices] == others]
-        return nodes[np.unique(seen)]
+        return np.asarray(nodes[np.unique(seen)])
 
     def cut(nodes: IntArray) -> int:
         along = (
@@ -107,7 +107,8 @@ class Factored:
         self._fronts: list[_Front] = []
         waiting: dict[int, FloatArray] = {}
         try:
-            for number, (end, size) in enumerate(zip(ends.tolist(), sizes, strict=True)):
+            for number, size in enumerate(sizes):
+                end = int(ends[number])
                 begin = end - size
                 entries = slice(columns.indptr[begin], columns.indptr[end])
                 row, value = columns.indices[entries], columns.data[entries]
