@@ -103,6 +103,7 @@ class Factored:
     def __init__(self, matrix: sp.csr_array, sizes: list[int], below: list[tuple[int, ...]]) -> None:
         self._matrix = matrix
         columns = sp.csc_array(sp.tril(matrix))
+        starts = np.asarray(columns.indptr)
         ends = np.cumsum(sizes)
         self._fronts: list[_Front] = []
         waiting: dict[int, FloatArray] = {}
@@ -110,9 +111,9 @@ class Factored:
             for number, size in enumerate(sizes):
                 end = int(ends[number])
                 begin = end - size
-                entries = slice(columns.indptr[begin], columns.indptr[end])
+                entries = slice(int(starts[begin]), int(starts[end]))
                 row, value = columns.indices[entries], columns.data[entries]
-                column = np.repeat(np.arange(size), np.diff(columns.indptr[begin : end + 1]))
+                column = np.repeat(np.arange(size), np.diff(starts[begin : end + 1]))
                 touched = [row, *(self._fronts[one].later for one in below[number])]
                 later = np.unique(np.concatenate([rows[rows >= end] for rows in touched])).astype(np.int64)
                 known = np.concatenate([np.arange(begin, end), later])
