@@ -21,12 +21,12 @@ from math import inf
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import LinearOperator, eigsh
 
-from trocar.errors import InputError, SolverError
+from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
 from trocar.waves.mesh.elements import Elements
 from trocar.waves.mesh.footprint import footprint_points
+from trocar.waves.mesh.lowest_modes import lowest_modes
 from trocar.waves.mesh.solid_mesh import IntArray, SolidMesh
 from trocar.waves.mesh.sparse import Factored, dissected
 from trocar.waves.oscillators import Oscillators
@@ -35,7 +35,6 @@ from trocar.waves.state import WaveState, require_step
 MOST_MODES = 500
 _REMEMBERED = 16  # presses whose vectors are kept, and sets of them whose basis is
 _MOST_PRESSES = 8  # whose vectors a state holds; those that no longer press are left first
-_RESIDUAL = 1e-8  # of a mode, relative; a frequency's error is its square
 _GENERATIONS = 2  # of vectors: 1 + 2 + 4 of a press
 _NEW = 1e-5  # relative: a vector that is nearer to those before it says nothing new
 
@@ -150,20 +149,11 @@ class WaveMesh:
     def _found(self) -> tuple[FloatArray, FloatArray]:
         """Squared angular frequencies [1/s^2], ascending, and modes [kg^-1/2], shape (r,) and (unknowns, r)."""
         order = self._order
-        mass = sp.csr_array(self.elements.mass()[order][:, order])
-        stiffness = sp.csr_array(self._stiffness[order][:, order])
-        solve = LinearOperator(stiffness.shape, matvec=self._factored.solve, dtype=np.float64)
-        start = np.random.default_rng(0).normal(size=len(order))
-        try:
-            squares, shapes = eigsh(
-                stiffness, self.modes, mass, sigma=0.0, OPinv=solve, v0=start, tol=_RESIDUAL
-            )
-        except RuntimeError as error:
-            raise SolverError(f"the mesh's lowest {self.modes} modes could not be found: {error}") from error
-        rising = np.argsort(squares)
+        mass = sp.csr_array(self._mass[order][:, order])
+        squares, shapes = lowest_modes(self._factored.solve, mass, self.modes)
         modes = np.zeros((self.elements.held.size, self.modes))
-        modes[order] = shapes[:, rising]
-        return squares[rising], modes
+        modes[order] = shapes
+        return squares, modes
 
     @property
     def frequencies(self) -> FloatArray:
