@@ -120,9 +120,9 @@ class Factored:
             for number, (end, size) in enumerate(zip(ends.tolist(), sizes, strict=True)):
                 begin = end - size
                 entries = slice(columns.indptr[begin], columns.indptr[end])
-                row, value = columns.indices[entries], columns.data[entries]
+                row, value = columns.indices[entries].astype(np.int64), columns.data[entries]
                 column = np.repeat(np.arange(size), np.diff(columns.indptr[begin : end + 1]))
-                touched: list[IntArray] = [row, *(self._fronts[one].later for one in below[number])]
+                touched = [row, *(self._fronts[one].later for one in below[number])]
                 later = np.unique(np.concatenate([rows[rows >= end] for rows in touched])).astype(np.int64)
                 known = np.concatenate([np.arange(begin, end), later])
                 front = np.zeros((len(known), len(known)), order="F")

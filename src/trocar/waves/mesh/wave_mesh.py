@@ -25,7 +25,7 @@ import scipy.sparse as sp
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
 from trocar.waves.mesh.elements import Elements
-from trocar.waves.mesh.footprint import footprint_points
+from trocar.waves.mesh.footprint import Approach, footprint_points, turn_to
 from trocar.waves.mesh.lowest_modes import lowest_modes
 from trocar.waves.mesh.solid_mesh import IntArray, SolidMesh
 from trocar.waves.mesh.sparse import Factored, dissected
@@ -36,6 +36,7 @@ MOST_MODES = 500
 _REMEMBERED = 16  # presses whose vectors are kept, and sets of them whose basis is
 _MOST_PRESSES = 8  # whose vectors a state holds; those that no longer press are left first
 _GENERATIONS = 2  # of vectors: 1 + 2 + 4 of a press
+_STEEPEST = 0.259  # z of the normal where a tool still comes from above: 75 degrees
 _NEW = 1e-5  # relative: a vector that is nearer to those before it says nothing new
 
 
@@ -68,14 +69,17 @@ class WaveMesh:
 
     Args:
         mesh: of the tissue.
-        modes: how many are in the basis. The step costs their square.
+        modes: how many are in the basis.
+        approach: along what a tool without tilt comes to a surface that slopes; on a level one there is no difference.
 
     Raises:
         InputError: fewer modes than one, or more than the mesh has; a material states a Prony series.
         SolverError: the mesh is not held, or its modes could not be found.
     """
 
-    def __init__(self, mesh: SolidMesh, *, modes: int = 60) -> None:
+    def __init__(
+        self, mesh: SolidMesh, *, modes: int = 60, approach: Approach | str = Approach.NORMAL
+    ) -> None:
         for material in mesh.materials:
             if material.prony:
                 raise InputError(
@@ -91,6 +95,7 @@ class WaveMesh:
         if not 1 <= modes <= most:
             raise InputError("modes", f"1 to {most}", modes)
         self.modes = modes
+        self.approach = Approach(approach)
         self._vectors = lru_cache(maxsize=_REMEMBERED)(self._vectors_of)
         self._basis = lru_cache(maxsize=_REMEMBERED)(self._basis_of)
 
@@ -233,10 +238,23 @@ class WaveMesh:
         Raises:
             InputError: the footprint is not wholly on the surface.
         """
+        surface, force = self.layer_names[0], np.asarray(press.force_vector)
         points, share = footprint_points(press)
-        nodes, weights = self.elements.at(self.layer_names[0], points)
+        if self.approach is Approach.NORMAL:
+            normal = share @ self.elements.seen(surface, points)[1]
+            normal /= np.linalg.norm(normal)
+            if normal[2] < _STEEPEST:
+                raise InputError(
+                    "press: x, y",
+                    "a place where the surface looks up, at most 75 degrees from it",
+                    f"{np.degrees(np.arccos(normal[2])):.0f} degrees at {1e3 * press.x:.4g}, {1e3 * press.y:.4g} mm",
+                    "turn the mesh so that this side is above",
+                )
+            turn, centre = turn_to(normal), np.array([press.x, press.y])
+            points, force = centre + (points - centre) @ turn[:2, :2].T, turn @ force
+        nodes, weights = self.elements.at(surface, points)
         spread = np.bincount(nodes.ravel(), (weights * share).ravel(), minlength=self.elements.nodes.shape[1])
-        return np.asarray(np.outer(press.force_vector, spread)).ravel()
+        return np.asarray(np.outer(force, spread)).ravel()
 
     @cached_property
     def _damping(self) -> sp.csr_array:
