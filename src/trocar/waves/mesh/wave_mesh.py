@@ -15,6 +15,7 @@ is exact.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import inf
@@ -24,6 +25,7 @@ import scipy.sparse as sp
 
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
+from trocar.waves.mesh.basis_cache import BasisCache, fingerprint
 from trocar.waves.mesh.elements import Elements
 from trocar.waves.mesh.footprint import Approach, footprint_points, turn_to
 from trocar.waves.mesh.lowest_modes import lowest_modes
@@ -71,6 +73,7 @@ class WaveMesh:
         mesh: of the tissue.
         modes: how many are in the basis.
         approach: along what a tool without tilt comes to a surface that slopes; on a level one there is no difference.
+        cache: where modes, and vectors of presses, are looked for and kept; None computes them.
 
     Raises:
         InputError: fewer modes than one, or more than the mesh has; a material states a Prony series.
@@ -78,7 +81,12 @@ class WaveMesh:
     """
 
     def __init__(
-        self, mesh: SolidMesh, *, modes: int = 60, approach: Approach | str = Approach.NORMAL
+        self,
+        mesh: SolidMesh,
+        *,
+        modes: int = 60,
+        approach: Approach | str = Approach.NORMAL,
+        cache: BasisCache | None = None,
     ) -> None:
         for material in mesh.materials:
             if material.prony:
@@ -96,6 +104,7 @@ class WaveMesh:
             raise InputError("modes", f"1 to {most}", modes)
         self.modes = modes
         self.approach = Approach(approach)
+        self._cache = cache
         self._vectors = lru_cache(maxsize=_REMEMBERED)(self._vectors_of)
         self._basis = lru_cache(maxsize=_REMEMBERED)(self._basis_of)
 
@@ -153,12 +162,22 @@ class WaveMesh:
     @cached_property
     def _found(self) -> tuple[FloatArray, FloatArray]:
         """Squared angular frequencies [1/s^2], ascending, and modes [kg^-1/2], shape (r,) and (unknowns, r)."""
+        squares, modes = self._kept(self._modes_of, "modes")
+        return squares, modes
+
+    def _modes_of(self) -> tuple[FloatArray, FloatArray]:
         order = self._order
         mass = sp.csr_array(self._mass[order][:, order])
         squares, shapes = lowest_modes(self._factored.solve, mass, self.modes)
         modes = np.zeros((self.elements.held.size, self.modes))
         modes[order] = shapes
         return squares, modes
+
+    def _kept(self, make: Callable[[], tuple[FloatArray, ...]], *names: object) -> tuple[FloatArray, ...]:
+        """Return arrays out of the cache, or make them."""
+        if self._cache is None:
+            return make()
+        return self._cache.remembered(fingerprint(self.mesh, self.modes, self.approach, *names), make)
 
     @property
     def frequencies(self) -> FloatArray:
@@ -266,6 +285,9 @@ class WaveMesh:
 
     def _vectors_of(self, press: Press) -> FloatArray:
         """Return the vectors of a press beside the modes, the static one first, shape (unknowns, k)."""
+        return self._kept(lambda: (self._made_vectors(press),), press)[0]
+
+    def _made_vectors(self, press: Press) -> FloatArray:
         found = [self._left_out(self.nodal_forces(press))]
         matrices = (self._mass, self._damping) if self._damping.count_nonzero() else (self._mass,)
         new = found
