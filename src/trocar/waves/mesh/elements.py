@@ -95,7 +95,35 @@ class Elements:
         Raises:
             InputError: a point is beside the surface.
         """
-        triangles, faces = self._seen(surface)
+        places, triangle = self._dropped(surface, points)
+        _, faces = self._seen(surface)
+        cells = self._skfem.f2t[0, faces[triangle]]
+        local = self._basis.mapping.invF(places.T[:, :, None], tind=cells)[:, :, 0]
+        shapes = [self._element.lbasis(local, i)[0] for i in range(len(self._basis.element_dofs))]
+        return np.asarray(self._basis.element_dofs[:, cells], dtype=np.int64), np.asarray(shapes)
+
+    def seen(self, surface: str, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return where points lie on a surface, seen from above, and its unit normals there.
+
+        Args:
+            surface: its name.
+            points: only x and y are used [m], shape (n, 2) or (n, 3).
+
+        Returns:
+            Places [m] and normals, both of shape (n, 3); normals look up.
+
+        Raises:
+            InputError: a point is beside the surface.
+        """
+        places, triangle = self._dropped(surface, points)
+        a, b, c = np.moveaxis(self.mesh.corners[self._seen(surface)[0][triangle]], 1, 0)
+        normal = np.cross(b - a, c - a)
+        normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+        return places, normal * np.sign(normal[:, 2:])
+
+    def _dropped(self, surface: str, points: FloatArray) -> tuple[FloatArray, IntArray]:
+        """Return where points fall on a surface, and on which of its triangles."""
+        triangles, _ = self._seen(surface)
         places, which = _dropped(self.mesh.corners[triangles], np.asarray(points)[:, :2])
         if (which < 0).any():
             lost = 1e3 * np.asarray(points)[int(np.argmax(which < 0)), :2]
@@ -105,10 +133,7 @@ class Elements:
                 f"a place over the surface, whose mesh is {x:.6g} x {y:.6g} mm",
                 f"{lost[0]:.6g}, {lost[1]:.6g} mm",
             )
-        cells = self._skfem.f2t[0, faces[which]]
-        local = self._basis.mapping.invF(places.T[:, :, None], tind=cells)[:, :, 0]
-        shapes = [self._element.lbasis(local, i)[0] for i in range(len(self._basis.element_dofs))]
-        return np.asarray(self._basis.element_dofs[:, cells], dtype=np.int64), np.asarray(shapes)
+        return places, which
 
     def _seen(self, surface: str) -> tuple[IntArray, IntArray]:
         """Return triangles that make up a surface, and the number of the face each is of."""

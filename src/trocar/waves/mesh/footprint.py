@@ -1,7 +1,12 @@
-"""Points of a footprint with shares of its force: a polar rule, which knows nothing of the elements below."""
+"""Points of a footprint with shares of its force: a polar rule, which knows nothing of the elements below.
+
+On a surface that slopes the footprint is laid into its tangent plane: the whole press, footprint and force, is turned
+by the shortest turn that takes z to the normal (Rodrigues' formula). On a level surface nothing turns.
+"""
 
 from __future__ import annotations
 
+from enum import StrEnum
 from math import cos, pi, sin
 
 import numpy as np
@@ -12,6 +17,24 @@ _RINGS, _SPOKES = 32, 128
 _GAUSSIAN_RIM = (
     3.0  # where the Gaussian profile exp(-2 rho^2) is cut off, in radii: it is 1.5e-8 of the middle's
 )
+
+
+class Approach(StrEnum):
+    """Along what a tool that is not tilted comes to a surface that slopes."""
+
+    NORMAL = "normal"  # of the surface, the mean over the footprint: as `Press.tilt` counts from
+    VERTICAL = "vertical"  # z, wherever the surface looks
+
+
+def turn_to(normal: FloatArray) -> FloatArray:
+    """Return the shortest turn that takes z to a unit normal, shape (3, 3).
+
+    Args:
+        normal: with z above 0, shape (3,).
+    """
+    x, y, z = normal
+    cross = np.array([[0.0, 0.0, x], [0.0, 0.0, y], [-x, -y, 0.0]])
+    return np.asarray(np.eye(3) + cross + cross @ cross / (1 + z))
 
 
 def footprint_points(press: Press) -> tuple[FloatArray, FloatArray]:

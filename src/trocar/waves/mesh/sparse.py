@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from numba import njit
 from scipy.linalg.blas import dsyrk, dtrsm
 from scipy.linalg.lapack import dpotrf
 
@@ -54,7 +55,7 @@ def dissected(places: FloatArray, matrix: sp.csr_array) -> list[Part]:
     def touching(nodes: IntArray, others: np.int8) -> np.ndarray:
         rows = pattern[nodes]
         seen = np.repeat(np.arange(len(nodes)), np.diff(rows.indptr))[side[rows.indices] == others]
-        return np.asarray(nodes[np.unique(seen)])
+        return np.asarray(nodes[np.unique(seen)], dtype=np.int64)
 
     def cut(nodes: IntArray) -> int:
         along = (
@@ -65,7 +66,8 @@ def dissected(places: FloatArray, matrix: sp.csr_array) -> list[Part]:
             found.append(Part(nodes))
             return len(found) - 1
         side[nodes] = np.where(left, 1, 2)
-        apart = min(touching(nodes[left], np.int8(2)), touching(nodes[~left], np.int8(1)), key=len)
+        here, there = touching(nodes[left], np.int8(2)), touching(nodes[~left], np.int8(1))
+        apart = here if len(here) < len(there) else there
         side[apart] = 0
         one, other = nodes[side[nodes] == 1], nodes[side[nodes] == 2]
         side[nodes] = 0
@@ -88,6 +90,14 @@ class _Front:
     beside: FloatArray
 
 
+@njit(cache=True)
+def _add(front: FloatArray, place: IntArray, rest: FloatArray) -> None:  # pragma: no cover - compiled
+    """Add the lower triangle of what is left of a part to the front above."""
+    for j in range(len(place)):
+        for i in range(j, len(place)):
+            front[place[i], place[j]] += rest[i, j]
+
+
 class Factored:
     """A factored symmetric positive definite matrix.
 
@@ -103,25 +113,22 @@ class Factored:
     def __init__(self, matrix: sp.csr_array, sizes: list[int], below: list[tuple[int, ...]]) -> None:
         self._matrix = matrix
         columns = sp.csc_array(sp.tril(matrix))
-        starts = np.asarray(columns.indptr)
         ends = np.cumsum(sizes)
         self._fronts: list[_Front] = []
         waiting: dict[int, FloatArray] = {}
         try:
-            for number, size in enumerate(sizes):
-                end = int(ends[number])
+            for number, (end, size) in enumerate(zip(ends.tolist(), sizes, strict=True)):
                 begin = end - size
-                entries = slice(int(starts[begin]), int(starts[end]))
-                row, value = columns.indices[entries], columns.data[entries]
-                column = np.repeat(np.arange(size), np.diff(starts[begin : end + 1]))
+                entries = slice(columns.indptr[begin], columns.indptr[end])
+                row, value = columns.indices[entries].astype(np.int64), columns.data[entries]
+                column = np.repeat(np.arange(size), np.diff(columns.indptr[begin : end + 1]))
                 touched = [row, *(self._fronts[one].later for one in below[number])]
                 later = np.unique(np.concatenate([rows[rows >= end] for rows in touched])).astype(np.int64)
                 known = np.concatenate([np.arange(begin, end), later])
                 front = np.zeros((len(known), len(known)), order="F")
                 front[np.searchsorted(known, row), column] = value
                 for one in below[number]:
-                    place = np.searchsorted(known, self._fronts[one].later)
-                    front[np.ix_(place, place)] += waiting.pop(one)
+                    _add(front, np.searchsorted(known, self._fronts[one].later), waiting.pop(one))
                 square, beside, waiting[number] = self._eliminated(front, size)
                 self._fronts.append(_Front(begin, end, later, square, beside))
         except MemoryError as error:
@@ -134,7 +141,7 @@ class Factored:
         """Return L11, L21 and what goes into the part above, of which only the lower triangle counts."""
         rest = front[size:, size:]
         if size == 0:
-            return np.zeros((0, 0)), np.zeros((len(front), 0)), rest
+            return np.zeros((0, 0)), np.zeros((len(front), 0)), np.asfortranarray(rest)
         square, failed = dpotrf(front[:size, :size], lower=1)
         if failed:
             raise SolverError(

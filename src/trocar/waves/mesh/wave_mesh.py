@@ -15,18 +15,20 @@ is exact.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import inf
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import LinearOperator, eigsh
 
-from trocar.errors import InputError, SolverError
+from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
+from trocar.waves.mesh.basis_cache import BasisCache, fingerprint
 from trocar.waves.mesh.elements import Elements
-from trocar.waves.mesh.footprint import footprint_points
+from trocar.waves.mesh.footprint import Approach, footprint_points, turn_to
+from trocar.waves.mesh.lowest_modes import lowest_modes
 from trocar.waves.mesh.solid_mesh import IntArray, SolidMesh
 from trocar.waves.mesh.sparse import Factored, dissected
 from trocar.waves.oscillators import Oscillators
@@ -35,8 +37,8 @@ from trocar.waves.state import WaveState, require_step
 MOST_MODES = 500
 _REMEMBERED = 16  # presses whose vectors are kept, and sets of them whose basis is
 _MOST_PRESSES = 8  # whose vectors a state holds; those that no longer press are left first
-_RESIDUAL = 1e-8  # of a mode, relative; a frequency's error is its square
 _GENERATIONS = 2  # of vectors: 1 + 2 + 4 of a press
+_STEEPEST = 0.259  # z of the normal where a tool still comes from above: 75 degrees
 _NEW = 1e-5  # relative: a vector that is nearer to those before it says nothing new
 
 
@@ -69,14 +71,23 @@ class WaveMesh:
 
     Args:
         mesh: of the tissue.
-        modes: how many are in the basis. The step costs their square.
+        modes: how many are in the basis.
+        approach: along what a tool without tilt comes to a surface that slopes; on a level one there is no difference.
+        cache: where modes, and vectors of presses, are looked for and kept; None computes them.
 
     Raises:
         InputError: fewer modes than one, or more than the mesh has; a material states a Prony series.
         SolverError: the mesh is not held, or its modes could not be found.
     """
 
-    def __init__(self, mesh: SolidMesh, *, modes: int = 60) -> None:
+    def __init__(
+        self,
+        mesh: SolidMesh,
+        *,
+        modes: int = 60,
+        approach: Approach | str = Approach.NORMAL,
+        cache: BasisCache | None = None,
+    ) -> None:
         for material in mesh.materials:
             if material.prony:
                 raise InputError(
@@ -92,6 +103,8 @@ class WaveMesh:
         if not 1 <= modes <= most:
             raise InputError("modes", f"1 to {most}", modes)
         self.modes = modes
+        self.approach = Approach(approach)
+        self._cache = cache
         self._vectors = lru_cache(maxsize=_REMEMBERED)(self._vectors_of)
         self._basis = lru_cache(maxsize=_REMEMBERED)(self._basis_of)
 
@@ -149,21 +162,22 @@ class WaveMesh:
     @cached_property
     def _found(self) -> tuple[FloatArray, FloatArray]:
         """Squared angular frequencies [1/s^2], ascending, and modes [kg^-1/2], shape (r,) and (unknowns, r)."""
+        squares, modes = self._kept(self._modes_of, "modes")
+        return squares, modes
+
+    def _modes_of(self) -> tuple[FloatArray, FloatArray]:
         order = self._order
-        mass = sp.csr_array(self.elements.mass()[order][:, order])
-        stiffness = sp.csr_array(self._stiffness[order][:, order])
-        solve = LinearOperator(stiffness.shape, matvec=self._factored.solve, dtype=np.float64)
-        start = np.random.default_rng(0).normal(size=len(order))
-        try:
-            squares, shapes = eigsh(
-                stiffness, self.modes, mass, sigma=0.0, OPinv=solve, v0=start, tol=_RESIDUAL
-            )
-        except RuntimeError as error:
-            raise SolverError(f"the mesh's lowest {self.modes} modes could not be found: {error}") from error
-        rising = np.argsort(squares)
+        mass = sp.csr_array(self._mass[order][:, order])
+        squares, shapes = lowest_modes(self._factored.solve, mass, self.modes)
         modes = np.zeros((self.elements.held.size, self.modes))
-        modes[order] = shapes[:, rising]
-        return squares[rising], modes
+        modes[order] = shapes
+        return squares, modes
+
+    def _kept(self, make: Callable[[], tuple[FloatArray, ...]], *names: object) -> tuple[FloatArray, ...]:
+        """Return arrays out of the cache, or make them."""
+        if self._cache is None:
+            return make()
+        return self._cache.remembered(fingerprint(self.mesh, self.modes, self.approach, *names), make)
 
     @property
     def frequencies(self) -> FloatArray:
@@ -243,10 +257,23 @@ class WaveMesh:
         Raises:
             InputError: the footprint is not wholly on the surface.
         """
+        surface, force = self.layer_names[0], np.asarray(press.force_vector)
         points, share = footprint_points(press)
-        nodes, weights = self.elements.at(self.layer_names[0], points)
+        if self.approach is Approach.NORMAL:
+            normal = share @ self.elements.seen(surface, points)[1]
+            normal /= np.linalg.norm(normal)
+            if normal[2] < _STEEPEST:
+                raise InputError(
+                    "press: x, y",
+                    "a place where the surface looks up, at most 75 degrees from it",
+                    f"{np.degrees(np.arccos(normal[2])):.0f} degrees at {1e3 * press.x:.4g}, {1e3 * press.y:.4g} mm",
+                    "turn the mesh so that this side is above",
+                )
+            turn, centre = turn_to(normal), np.array([press.x, press.y])
+            points, force = centre + (points - centre) @ turn[:2, :2].T, turn @ force
+        nodes, weights = self.elements.at(surface, points)
         spread = np.bincount(nodes.ravel(), (weights * share).ravel(), minlength=self.elements.nodes.shape[1])
-        return np.asarray(np.outer(press.force_vector, spread)).ravel()
+        return np.asarray(np.outer(force, spread)).ravel()
 
     @cached_property
     def _damping(self) -> sp.csr_array:
@@ -258,6 +285,9 @@ class WaveMesh:
 
     def _vectors_of(self, press: Press) -> FloatArray:
         """Return the vectors of a press beside the modes, the static one first, shape (unknowns, k)."""
+        return self._kept(lambda: (self._made_vectors(press),), press)[0]
+
+    def _made_vectors(self, press: Press) -> FloatArray:
         found = [self._left_out(self.nodal_forces(press))]
         matrices = (self._mass, self._damping) if self._damping.count_nonzero() else (self._mass,)
         new = found
