@@ -20,7 +20,7 @@ from trocar.study.writing.results import write_study
 
 PAPER_PRESET = "paper-2014"
 STUDY_SHARE = 0.85  # of the whole work, the rest is drawing and writing
-MEASURED_SHARE = 0.35  # of it, where there are measured sets
+MEASURED_SHARE = 0.35  # of the whole work, where there are measured sets
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,12 +64,11 @@ def conduct(
     """
     check_folder(out)
     _refuse_impossible(plan)
-    sets = None if data is None else read_sets(data)
-    share_of_study = STUDY_SHARE if sets is None else STUDY_SHARE - MEASURED_SHARE
-    study = run_study(plan, lambda what, share: watch(what, share_of_study * share))
-    measured = None
-    if sets is not None:
-        measured = run_leg(sets, lambda what, share: watch(what, share_of_study + MEASURED_SHARE * share))
+    measured, begun = None, 0.0
+    if data is not None:  # first: what is wrong with the data is then told soon
+        begun = MEASURED_SHARE
+        measured = run_leg(read_sets(data), lambda what, share: watch(what, MEASURED_SHARE * share))
+    study = run_study(plan, lambda what, share: watch(what, begun + (STUDY_SHARE - begun) * share))
     began = perf_counter()
     watch("drawing and writing", STUDY_SHARE)
     report = write_study(

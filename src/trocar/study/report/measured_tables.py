@@ -86,7 +86,7 @@ def growth_table(results: PhantomResults) -> Table:
     for faces, model in shown:
         growth = np.median([disc.growth for disc in results.of(faces, model)], axis=0)
         name = str(model) if model is Model.LINEAR else f"{model}, faces {FACES[faces]}"
-        rows.append((name, *(f"{100 * share:+.1f} %".replace("-", "−") for share in growth)))
+        rows.append((name, *(f"{round(100 * share, 1) + 0.0:+.1f} %".replace("-", "−") for share in growth)))
     return Table(
         caption="Predicted over measured load, less one, of specimen B at a compression: median of all compositions.",
         head=("law", *(percent(strain) for strain in GROWTH_STRAINS)),
@@ -131,9 +131,9 @@ def limb_table(results: LimbResults) -> Table:
         numeric=(1, 2, 3),
         note=f"Fitted to {fitted} other people. Linear layers: shear moduli of skin, fat and muscle {moduli} kPa, "
         f"the same everywhere. Exponential layers: b = {three(results.steepness)}; below zero they soften, which no "
-        "tissue does: an operator presses until a force is reached, so indentation tells little of it. "
-        f"Last row: the median of {results.pairs} trials that have such a neighbour, over √2. Trials without all "
-        f"thicknesses are left out: {results.limbs.incomplete}.",
+        "tissue does: it seems that operators press until a force is reached, so indentation tells little of it. "
+        f"Last row: the median of {results.pairs} trials that have such a neighbour, over √2. "
+        f"Trials without all thicknesses are left out: {results.limbs.incomplete}.",
     )
 
 
