@@ -151,6 +151,6 @@ def test_a_model_out_of_the_cache_is_the_same(tmp_path, monkeypatch):
     points = np.array([[0.01, 0.01, 0.0], [0.012, 0.009, 0.0]])
     first, again = (WaveMesh(SMALL, modes=5, cache=BasisCache(tmp_path)) for _ in range(2))
     one = first.displacement(first.static((PRESS,)), points)
-    monkeypatch.setattr("trocar.waves.mesh.wave_mesh.Factored", None)  # nothing is factored any more
+    monkeypatch.setattr("trocar.waves.mesh.assembled.Factored", None)  # nothing is factored any more
     assert np.array_equal(again.displacement(again.static((PRESS,)), points), one)
     assert {path.suffix for path in Path(tmp_path).iterdir()} == {".basis"}

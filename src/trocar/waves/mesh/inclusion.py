@@ -22,7 +22,7 @@ def with_inclusion(
     """Return a mesh some of whose elements have another material.
 
     Whole elements change: those most of which lies within the ellipsoid, as many as have its volume. What is left
-    is the steps of its surface; `bench/inclusion.py` says how much they matter.
+    is the steps of its surface; `bench/shapes.py` says how much they matter.
 
     Args:
         mesh: of the tissue around it.

@@ -1,6 +1,6 @@
 """A factored stiffness: parts that are eliminated one after the other, dense within, and every residual checked.
 
-Nested dissection (George 1973, SIAM J. Numer. Anal. 10:345) makes a tree of parts; the multifrontal method (Duff and
+`dissection` makes a tree of parts; the multifrontal method (Duff and
 Reid 1983, ACM Trans. Math. Softw. 9:302) eliminates each in a dense matrix of its own unknowns and of those that they
 touch later,
 
@@ -22,61 +22,7 @@ from trocar.errors import SolverError
 from trocar.model import FloatArray
 from trocar.waves.mesh.solid_mesh import IntArray
 
-_LEAF = 40  # nodes of a part that is no longer cut
 _ACCEPTED = 1e-8  # relative residual
-
-
-@dataclass(frozen=True, eq=False)
-class Part:
-    """Nodes that are eliminated together.
-
-    Attributes:
-        nodes: their numbers.
-        below: places in the order of elimination of the parts that this one parts.
-    """
-
-    nodes: IntArray
-    below: tuple[int, ...] = ()
-
-
-def dissected(places: FloatArray, matrix: sp.csr_array) -> list[Part]:
-    """Return parts in their order of elimination.
-
-    A part is cut at the middle of its longest side; whoever has a neighbour on the other side is eliminated last.
-
-    Args:
-        places: of the nodes [m], shape (3, n).
-        matrix: which nodes are neighbours, shape (n, n), symmetric.
-    """
-    pattern = sp.csr_array(matrix)
-    side = np.zeros(len(places[0]), dtype=np.int8)
-    found: list[Part] = []
-
-    def touching(nodes: IntArray, others: np.int8) -> np.ndarray:
-        rows = pattern[nodes]
-        seen = np.repeat(np.arange(len(nodes)), np.diff(rows.indptr))[side[rows.indices] == others]
-        return np.asarray(nodes[np.unique(seen)], dtype=np.int64)
-
-    def cut(nodes: IntArray) -> int:
-        along = (
-            places[int(np.argmax(np.ptp(places[:, nodes], axis=1)))][nodes] if len(nodes) > _LEAF else nodes
-        )
-        left = along < np.median(along) if len(nodes) > _LEAF else np.zeros(len(nodes), dtype=bool)
-        if not left.any():
-            found.append(Part(nodes))
-            return len(found) - 1
-        side[nodes] = np.where(left, 1, 2)
-        here, there = touching(nodes[left], np.int8(2)), touching(nodes[~left], np.int8(1))
-        apart = here if len(here) < len(there) else there
-        side[apart] = 0
-        one, other = nodes[side[nodes] == 1], nodes[side[nodes] == 2]
-        side[nodes] = 0
-        below = tuple(cut(half) for half in (one, other) if len(half))
-        found.append(Part(apart, below))
-        return len(found) - 1
-
-    cut(np.arange(len(places[0]), dtype=np.int64))
-    return found
 
 
 @dataclass(frozen=True, eq=False)

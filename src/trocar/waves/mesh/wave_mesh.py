@@ -25,12 +25,11 @@ import scipy.sparse as sp
 
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
+from trocar.waves.mesh.assembled import Assembled
 from trocar.waves.mesh.basis_cache import BasisCache, fingerprint
 from trocar.waves.mesh.elements import Elements
 from trocar.waves.mesh.footprint import Approach, footprint_points, turn_to
-from trocar.waves.mesh.lowest_modes import lowest_modes
-from trocar.waves.mesh.solid_mesh import IntArray, SolidMesh
-from trocar.waves.mesh.sparse import Factored, dissected
+from trocar.waves.mesh.solid_mesh import SolidMesh
 from trocar.waves.oscillators import Oscillators
 from trocar.waves.state import WaveState, require_step
 
@@ -98,8 +97,8 @@ class WaveMesh:
                 )
         self.mesh = mesh
         self.elements = Elements(mesh)
-        self._free = np.flatnonzero(~self.elements.held.ravel())
-        most = min(MOST_MODES, len(self._free) - 1)
+        self.matrices = Assembled(self.elements)
+        most = min(MOST_MODES, len(self.matrices.free) - 1)
         if not 1 <= modes <= most:
             raise InputError("modes", f"1 to {most}", modes)
         self.modes = modes
@@ -126,7 +125,7 @@ class WaveMesh:
     @property
     def dofs(self) -> int:
         """Displacements of nodes that are not held."""
-        return len(self._free)
+        return len(self.matrices.free)
 
     @property
     def longest_step(self) -> float:
@@ -134,43 +133,9 @@ class WaveMesh:
         return inf
 
     @cached_property
-    def _parts(self) -> tuple[list[IntArray], list[tuple[int, ...]]]:
-        """Unknowns that are free, part by part in the order of their elimination, and which parts lie below each."""
-        count = self.elements.nodes.shape[1]
-        free = ~self.elements.held.ravel()
-        unknowns, below = [], []
-        for part in dissected(self.elements.nodes, self._stiffness[:count, :count]):
-            own = (part.nodes[:, None] + count * np.arange(3)).ravel()
-            unknowns.append(own[free[own]])
-            below.append(part.below)
-        return unknowns, below
-
-    @cached_property
-    def _order(self) -> IntArray:
-        return np.concatenate(self._parts[0])
-
-    @cached_property
-    def _stiffness(self) -> sp.csr_array:
-        return self.elements.stiffness()
-
-    @cached_property
-    def _factored(self) -> Factored:
-        order, (unknowns, below) = self._order, self._parts
-        matrix = sp.csr_array(self._stiffness[order][:, order])
-        return Factored(matrix, [len(own) for own in unknowns], below)
-
-    @cached_property
     def _found(self) -> tuple[FloatArray, FloatArray]:
         """Squared angular frequencies [1/s^2], ascending, and modes [kg^-1/2], shape (r,) and (unknowns, r)."""
-        squares, modes = self._kept(self._modes_of, "modes")
-        return squares, modes
-
-    def _modes_of(self) -> tuple[FloatArray, FloatArray]:
-        order = self._order
-        mass = sp.csr_array(self._mass[order][:, order])
-        squares, shapes = lowest_modes(self._factored.solve, mass, self.modes)
-        modes = np.zeros((self.elements.held.size, self.modes))
-        modes[order] = shapes
+        squares, modes = self._kept(lambda: self.matrices.modes(self.modes), "modes")
         return squares, modes
 
     def _kept(self, make: Callable[[], tuple[FloatArray, ...]], *names: object) -> tuple[FloatArray, ...]:
@@ -224,12 +189,16 @@ class WaveMesh:
         if presses == state.presses:
             return state.oscillators[0]
         old, new = self._basis(state.presses), self._basis(presses)
-        overlap = new.own.T @ (self._mass @ old.own)
+        overlap = new.own.T @ (self.matrices.mass @ old.own)
         values = []
         for read in (old.oscillators.read, old.oscillators.read_rates):
             amplitudes = read(state.oscillators[0])[0]
             values += [amplitudes[: self.modes], overlap @ amplitudes[self.modes :]]
         return np.asarray(np.einsum("jsia,a->jsi", new.oscillators.entry, np.concatenate(values)))
+
+    def oscillators(self, presses: Load) -> Oscillators:
+        """Return what moves while these press: one group, from a force of 1 N of each to all amplitudes."""
+        return self._basis(_units(presses)).oscillators
 
     def displacement(self, state: MeshState, points: FloatArray, layer: str | None = None) -> FloatArray:
         """Return the displacement [m] of a surface at points [m]; both of shape (n, 3).
@@ -275,21 +244,17 @@ class WaveMesh:
         spread = np.bincount(nodes.ravel(), (weights * share).ravel(), minlength=self.elements.nodes.shape[1])
         return np.asarray(np.outer(force, spread)).ravel()
 
-    @cached_property
-    def _damping(self) -> sp.csr_array:
-        return self.elements.damping()
-
-    @cached_property
-    def _mass(self) -> sp.csr_array:
-        return self.elements.mass()
-
     def _vectors_of(self, press: Press) -> FloatArray:
         """Return the vectors of a press beside the modes, the static one first, shape (unknowns, k)."""
         return self._kept(lambda: (self._made_vectors(press),), press)[0]
 
     def _made_vectors(self, press: Press) -> FloatArray:
         found = [self._left_out(self.nodal_forces(press))]
-        matrices = (self._mass, self._damping) if self._damping.count_nonzero() else (self._mass,)
+        matrices = (
+            (self.matrices.mass, self.matrices.damping)
+            if self.matrices.damping.count_nonzero()
+            else (self.matrices.mass,)
+        )
         new = found
         for _ in range(_GENERATIONS):
             new = [self._left_out(matrix @ vector) for vector in new for matrix in matrices]
@@ -305,13 +270,13 @@ class WaveMesh:
             for press in presses:
                 vectors = self._vectors(press)
                 if place < vectors.shape[1]:
-                    own = _joined(own, vectors[:, place], self._mass)
+                    own = _joined(own, vectors[:, place], self.matrices.mass)
         count = self.modes + own.shape[1]
         damping, stiffness = np.zeros((count, count)), np.diag(np.append(squares, np.zeros(own.shape[1])))
-        lossy = self._damping @ np.concatenate([shapes, own], axis=1)
+        lossy = self.matrices.damping @ np.concatenate([shapes, own], axis=1)
         damping[: self.modes] = shapes.T @ lossy
         damping[self.modes :] = own.T @ lossy
-        beside = own.T @ (self._stiffness @ own)
+        beside = own.T @ (self.matrices.stiffness @ own)
         stiffness[self.modes :, self.modes :] = 0.5 * (beside + beside.T)
         forces = np.zeros((count, len(presses)))
         for number, press in enumerate(presses):
@@ -324,10 +289,8 @@ class WaveMesh:
 
     def _left_out(self, forces: FloatArray) -> FloatArray:
         """Return the static answer of the modes that are not in the basis to nodal forces [N]."""
-        field = np.zeros_like(forces)
-        field[self._order] = self._factored.solve(forces[self._order])
         squares, shapes = self._found
-        return np.asarray(field - shapes @ ((shapes.T @ forces) / squares))
+        return np.asarray(self.matrices.answer(forces) - shapes @ ((shapes.T @ forces) / squares))
 
 
 def _units(load: Load) -> tuple[Press, ...]:
