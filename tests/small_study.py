@@ -10,7 +10,7 @@ from time import monotonic, sleep
 
 import pytest
 
-from trocar.reference import fea
+from trocar.reference import block_model
 from trocar.reference.block import MeshSize
 from trocar.reference.fea import FEASolid
 from trocar.study import models, protocol
@@ -34,7 +34,7 @@ def small_study() -> Study:
     """Run the quick plan on coarse meshes with long steps."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(protocol, "COARSE_MESH", MeshSize(**COARSE))
-        patch.setattr(fea, "_LONGEST_STEP", 2e-3)
+        patch.setattr(block_model, "_LONGEST_STEP", 2e-3)
         patch.setitem(models.QUICK_MODELS, "fea", _coarse)
         return run_study(Plan(quick=True))
 
