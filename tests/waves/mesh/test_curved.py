@@ -42,6 +42,11 @@ def test_on_a_slope_force_and_footprint_are_turned():
     assert np.linalg.norm(tilted) == pytest.approx(0.05)
 
 
+def test_another_approach_is_refused():
+    with pytest.raises(InputError, match="approach: expected one of normal, vertical, got 'sideways'"):
+        WaveMesh(BLOCK, approach="sideways")
+
+
 def test_straight_down_stays_straight_down():
     model = WaveMesh(WEDGE, modes=1, approach="vertical")
     nodal = model.nodal_forces(PRESS).reshape(3, -1)

@@ -55,6 +55,11 @@ def test_a_thickness_that_is_none_is_refused(thickness, said):
         layered_mesh(LAYERS, LINES, thickness)
 
 
+def test_one_face_is_flat():
+    with pytest.raises(InputError, match="flat: expected one of top, base, got 'both'"):
+        layered_mesh(LAYERS, LINES, {}, flat="both")
+
+
 def test_maps_in_files_agree(tmp_path):
     table = np.array([[4.0, 5.0, 6.0], [2.0, 3.0, 4.0]])  # rows from the largest y down
     np.savetxt(tmp_path / "map.csv", table, delimiter=",")

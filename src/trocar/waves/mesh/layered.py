@@ -51,7 +51,8 @@ def layered_mesh(
     Raises:
         InputError: there is no such layer, or it is not a hundredth of its stated thickness somewhere.
     """
-    side = Flat(flat)
+    if flat not in list(Flat):
+        raise InputError("flat", f"one of {', '.join(Flat)}", flat)
     x, y, z = (np.asarray(line, dtype=np.float64) for line in lines)
     mesh = block_mesh(tissue, lines, support=support)
     for name in thickness:
@@ -69,7 +70,7 @@ def layered_mesh(
     depth = np.concatenate(
         [np.zeros((1, *grid[0].shape)), np.cumsum(own, axis=0)]
     )  # of each layer's upper face
-    if side is Flat.BASE:
+    if flat == Flat.BASE:
         depth = depth - depth[-1]
     layer_of = np.clip(np.searchsorted(stated, -z, side="right") - 1, 0, len(own) - 1)
     share = (-z - stated[layer_of]) / (stated[layer_of + 1] - stated[layer_of])

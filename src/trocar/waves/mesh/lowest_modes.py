@@ -35,16 +35,18 @@ def lowest_modes(
     """
     size = mass.shape[0]
     block, _ = _upright(np.random.default_rng(0).normal(size=(size, min(_BLOCK, size))), mass)
-    basis = block
+    basis = [block]
     projected = np.zeros((0, 0))
     for _ in range(_MOST_BLOCKS + 4 * count // _BLOCK):
         new = solve(mass @ block)
         old, width = projected.shape[0], block.shape[1]
-        shares = np.zeros((basis.shape[1], width))
+        shares = np.zeros((old + width, width))
         for _ in range(2):
-            share = basis.T @ (mass @ new)
-            new = new - basis @ share
-            shares += share
+            heavy = mass @ new
+            share = [one.T @ heavy for one in basis]
+            for one, part in zip(basis, share, strict=True):
+                new -= one @ part
+            shares += np.concatenate(share)
         grown = np.zeros((old + width, old + width))
         grown[:old, :old] = projected
         grown[:, old:], grown[old:, :] = shares, shares.T
@@ -54,11 +56,15 @@ def lowest_modes(
         new, factor = _upright(new, mass)
         left = np.linalg.norm(factor @ vectors[old:, :count], axis=0)
         if len(values) >= count and (left <= _RESIDUAL * values[:count]).all():
-            return 1.0 / values[:count], basis @ vectors[:, :count]
+            modes, begin = np.zeros((size, count)), 0
+            for one in basis:
+                modes += one @ vectors[begin : begin + one.shape[1], :count]
+                begin += one.shape[1]
+            return 1.0 / values[:count], modes
         if new.shape[1] == 0:
             break
         block = new
-        basis = np.concatenate([basis, block], axis=1)
+        basis.append(block)
     raise SolverError(f"the mesh's lowest {count} modes did not settle; ask for fewer")
 
 

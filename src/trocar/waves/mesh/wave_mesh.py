@@ -75,7 +75,8 @@ class WaveMesh:
         cache: where modes, and vectors of presses, are looked for and kept; None computes them.
 
     Raises:
-        InputError: fewer modes than one, or more than the mesh has; a material states a Prony series.
+        InputError: fewer modes than one, or more than the mesh has; no such approach; a material states a Prony
+            series.
         SolverError: the mesh is not held, or its modes could not be found.
     """
 
@@ -102,6 +103,8 @@ class WaveMesh:
         if not 1 <= modes <= most:
             raise InputError("modes", f"1 to {most}", modes)
         self.modes = modes
+        if approach not in list(Approach):
+            raise InputError("approach", f"one of {', '.join(Approach)}", approach)
         self.approach = Approach(approach)
         self._cache = cache
         self._vectors = lru_cache(maxsize=_REMEMBERED)(self._vectors_of)
