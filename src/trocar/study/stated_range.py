@@ -99,9 +99,7 @@ def _beyond_the_sheet(case: Case, model: str, dent: float) -> list[str]:
             "more than the sheet stiffens"
         )
     if model == MEMBRANE and MOST_CONTRAST < stiffer < inf:
-        found.append(
-            f"the sheet is {stiffer:.3g} times stiffer than its bed, and above {MOST_CONTRAST:g} membranes err"
-        )
+        found.append(f"the sheet is {stiffer:.3g} times stiffer than its bed, beyond {MOST_CONTRAST:g}")
     thickness = sum(layer.thickness for layer in stretching_layers(tissue, support)) / tissue.thickness
     if support.base_held and thickness > THICKEST:
         found.append(f"the layers above the bed are {100 * thickness:.0f} % of the thickness, no thin sheet")

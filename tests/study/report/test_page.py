@@ -109,7 +109,7 @@ def test_pictures_are_described_and_tables_named(drawn, outline):
     drawings = [found for found in outline.of("svg") if found.get("role") == "img"]
     assert len(drawings) == len(outline.of("svg")) == len(drawn)
     assert all(len(found["aria-label"]) > 60 for found in drawings)
-    assert len(outline.of("caption")) == len(outline.of("table")) == 18
+    assert len(outline.of("caption")) == len(outline.of("table")) == 19
 
 
 def test_no_number_of_the_page_is_infinite(outline):
