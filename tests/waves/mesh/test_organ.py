@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from scipy.special import gamma
 
@@ -42,6 +43,21 @@ def test_an_even_one_has_the_volume_of_its_formula():
     )
     assert -0.015 < fine < 0  # chords cut off
     assert coarse / fine == pytest.approx(4, rel=0.1)  # second order
+
+
+def test_elements_are_shorter_where_tools_press():
+    place = np.array([0.13, 0.05])
+    even, closer = Liver().mesh(LIVER, spacing=0.02), Liver().mesh(LIVER, spacing=0.02, around=tuple(place))
+    assert closer.size == pytest.approx(even.size, rel=0.02)
+
+    def near(mesh):
+        return (
+            np.linalg.norm(mesh.corners[mesh.surfaces["surface"]].mean(axis=1)[:, :2] - place, axis=1) < 0.01
+        ).sum()
+
+    assert near(closer) > 5 * near(even)  # nine times, less towards the rim of what is near
+    with pytest.raises(InputError, match="around: expected a place on the liver"):
+        Liver().mesh(LIVER, around=(0.5, 0.05))
 
 
 @pytest.mark.parametrize(

@@ -26,6 +26,8 @@ from trocar.waves.mesh.stuffing import stuffed
 _POWER = 2.4  # of the outline: 2 is an ellipse
 _UPPER, _LOWER = 2.0, 4.0  # powers of the height: a dome, and a flat side with a blunt rim
 _STRETCH = 1.8  # elements are as much lower than long: most happens through the thickness
+_CLOSER, _WITHIN = 3.0, 0.02  # elements are so many times shorter, within so far of where tools press [m]
+_LINES, _BEFORE = 500, 250  # places of the grading along a side, and beyond each end
 _FOLD_AT, _FOLD_WIDE = -0.28, 0.10  # s of the fold between the lobes, and how wide it is
 _LIGAMENT = 0.06  # s to either side of the fold, where the falciform ligament holds the upper side
 _BEHIND = 0.55  # of the half width: farther back, the upper side hangs on the coronary ligament
@@ -79,19 +81,43 @@ class Liver:
         t = np.clip(0.5 * (s + 1), 0.0, 1.0)
         return self.taper + (1 - self.taper) * t * t * (3 - 2 * t)
 
-    def mesh(self, layer: Layer, *, spacing: float = 0.0125) -> SolidMesh:
+    def _site(self, around: tuple[float, float] | None) -> tuple[float | None, float | None]:
+        """Return where a place is before it is narrowed, from the middle [m]."""
+        if around is None:
+            return None, None
+        s = np.linspace(-1.0, 1.0, 1001)
+        widest = float((self._narrowing(s) * (1 - np.abs(s) ** _POWER) ** (1 / _POWER)).max())
+        x = around[0] - 0.5 * self.length
+        y = around[1] - 0.5 * self.width * widest
+        if not (abs(x) <= 0.5 * self.length and abs(y) <= 0.5 * self.width * widest):
+            raise InputError("around", "a place on the liver, as seen from above [m]", around)
+        return x, y / float(self._narrowing(np.array(2 * x / self.length)))
+
+    def mesh(
+        self, layer: Layer, *, spacing: float = 0.0125, around: tuple[float, float] | None = None
+    ) -> SolidMesh:
         """Return its tetrahedra, held by the bed below, the falciform ligament above, and the coronary ligament behind.
 
         Args:
             layer: its material; the thickness does not matter.
             spacing: of the lattice of tetrahedra, along x [m]; where the organ is narrower they are smaller.
+            around: x and y of a place where tools press [m], as seen from above; elements are a third as long there.
 
         Raises:
             InputError: the spacing is too small, or as large as the organ.
         """
         high = np.array([0.5 * self.length, 0.5 * self.width, _STRETCH * self.height / (1 + self.flatness)])
         low = -high * np.array([1.0, 1.0, self.flatness])
-        corners, cells = stuffed(self._level, low, high, spacing)
+        lines = [_closer(low[axis], high[axis], place) for axis, place in enumerate(self._site(around))]
+        starts = np.array([*(even[_BEFORE] for even, _ in lines), low[2]])
+        stops = np.array([*(even[-1 - _BEFORE] for even, _ in lines), high[2]])
+
+        def graded(places: FloatArray) -> FloatArray:
+            x, y = (np.interp(places[:, axis], *line) for axis, line in enumerate(lines))
+            return np.stack([x, y, places[:, 2]], axis=1)
+
+        corners, cells = stuffed(lambda places: self._level(graded(places)), starts, stops, spacing)
+        corners = graded(corners)
         narrowing = self._narrowing(corners[:, 0] / (0.5 * self.length))
         corners = corners * np.stack([np.ones_like(narrowing), narrowing, narrowing / _STRETCH], axis=1)
         outside, top = outer_faces(cells)[0], above(corners, cells)
@@ -115,3 +141,14 @@ class Liver:
                 surfaces={"surface": top},
             )
         )
+
+
+def _closer(low: float, high: float, middle: float | None) -> tuple[FloatArray, FloatArray]:
+    """Return even places and those that they stand for [m], which are closer about a middle; `_BEFORE` lie outside."""
+    step = (high - low) / _LINES
+    places = np.asarray(low + step * np.arange(-_BEFORE, _LINES + _BEFORE + 1), dtype=np.float64)
+    if middle is None:
+        return places, places
+    density = 1 + (_CLOSER - 1) * np.exp(-(((places - middle) / _WITHIN) ** 2))
+    even = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]))]) * step
+    return even, places
