@@ -108,7 +108,7 @@ def mutated(draw: st.DrawFn) -> bytes:
                 node[last] = draw(NUMBERS)
             case "garbage":
                 node[last] = draw(GARBAGE)
-            case "scale" if isinstance(node[last], int | float):
+            case "scale" if isinstance(node[last], int | float) and abs(node[last]) < 1e300:
                 node[last] = node[last] * 10.0 ** draw(st.integers(-8, 8))
             case "add" if isinstance(node, dict):
                 node[draw(st.text(st.characters(codec="utf-8"), max_size=8))] = draw(GARBAGE)
