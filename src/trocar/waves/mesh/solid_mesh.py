@@ -127,7 +127,7 @@ class SolidMesh:
         spacing: float | None = None,
         drop_unused: bool = False,
     ) -> SolidMesh:
-        """Read a file of tetrahedra or hexahedra, or fill a closed surface with tetrahedra; needs the extra `mesh`.
+        """Read a file of tetrahedra or hexahedra, or fill a closed surface with tetrahedra.
 
         Args:
             path: a .vtk, .vtu, .msh, .inp, .mesh, .bdf or .nas file; of surfaces also .stl, .obj, .ply and .off.
