@@ -44,7 +44,9 @@ napoleon_use_ivar = True  # "Attributes:" of a class lists what autodoc finds ag
 nitpick_ignore_regex = [
     (r"py:.*", r"(?!trocar\.).*"),  # references must resolve inside Trocar; elsewhere needs a network
     (r"py:.*", r".*\.[A-Z]"),  # type variables have no entry of their own
+    (r"py:.*", r".*\.\w+_contra"),
 ]
+suppress_warnings = ["ref.python"]  # a short name that two modules have; that a name leads nowhere is still an error
 
 highlight_language = "text"  # a literal block in a docstring is mathematics
 html_theme = "furo"
