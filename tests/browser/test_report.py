@@ -64,6 +64,6 @@ def test_pictures_are_decoded_and_nothing_runs_out(browser, report, tmp_path, wi
     found = json.loads(unescape(re.search(r'data-found="([^"]*)"', dom)[1]))
     assert found["images"]
     assert all(complete and wide > 0 for complete, wide in found["images"])
-    assert len(found["drawings"]) == 11
+    assert len(found["drawings"]) == 12
     assert min(found["drawings"]) > 300
     assert found["overflow"] <= 0
