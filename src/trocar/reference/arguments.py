@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from math import isfinite
 
 from trocar.errors import InputError
-from trocar.model import Load, Support
+from trocar.model import Load, Press, Support
+
+_DEFAULT_RADIUS = 1 / 15  # of the shorter side: 4 mm on a 60 mm block
 
 
 def checked_size(size: Sequence[float]) -> tuple[float, float]:
@@ -44,3 +46,9 @@ def check_step(load0: Load, load1: Load, dt: float) -> None:
         raise InputError(
             "load1", f"{len(load0)} presses, as in load0", len(load1), "give an idle press force 0"
         )
+
+
+def central_press(size: tuple[float, float]) -> Load:
+    """Return what a grid is made for where nothing is said: a tool of a 1/15 of the shorter side in the middle."""
+    a, b = size
+    return (Press(x=a / 2, y=b / 2, radius=_DEFAULT_RADIUS * min(a, b), force=1.0),)

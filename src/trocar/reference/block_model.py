@@ -14,7 +14,7 @@ from typing import Generic
 
 import numpy as np
 
-from trocar.model import FloatArray, Load, Press, Support
+from trocar.model import FloatArray, Load, Support
 from trocar.reference.arguments import check_step
 from trocar.reference.discretisation import Discretisation
 from trocar.reference.domain import wholes
@@ -32,7 +32,6 @@ _POINTS_PER_ELEMENT = (
     6  # along an edge, where the largest deflection is looked for: it is missed by 2e-4 at most
 )
 _LONGEST_STEP = 2.5e-4  # [s]
-_DEFAULT_RADIUS = 1 / 15  # of the shorter side: 4 mm on a 60 mm block
 
 
 class BlockModel(Generic[G]):
@@ -269,9 +268,3 @@ def _subdivided(lines: FloatArray) -> FloatArray:
     """Put points between grid lines, so that the largest deflection between two nodes is not missed."""
     part = np.arange(_POINTS_PER_ELEMENT) / _POINTS_PER_ELEMENT
     return np.append((lines[:-1, None] + part * np.diff(lines)[:, None]).ravel(), lines[-1])
-
-
-def central_press(size: tuple[float, float]) -> Load:
-    """Return what a grid is made for where nothing is said: a tool of a 1/15 of the shorter side in the middle."""
-    a, b = size
-    return (Press(x=a / 2, y=b / 2, radius=_DEFAULT_RADIUS * min(a, b), force=1.0),)

@@ -12,9 +12,9 @@ from __future__ import annotations
 
 from trocar.errors import InputError
 from trocar.model import Load, Support
-from trocar.reference.arguments import checked_size, checked_support
+from trocar.reference.arguments import central_press, checked_size, checked_support
 from trocar.reference.block import MeshSize, quarter_mesh
-from trocar.reference.block_model import BlockModel, central_press
+from trocar.reference.block_model import BlockModel
 from trocar.reference.finite_elements import FiniteElements
 from trocar.reference.mesh import Bricks
 from trocar.reference.state import FEAState

@@ -21,8 +21,8 @@ from trocar.tissues import Linear, NeoHookean, Tissue
 from trocar.waves.fit import RADII
 from trocar.waves.membrane import WaveMembrane
 from trocar.waves.solid import WaveSolid
+from trocar.waves.stretch.moduli import DEEPEST
 
-THIRD = 1 / 3  # of the thickness
 _LONGER = 1.2  # every step in force than the one before it: what stiffens takes many
 _MOST_STEPS = 24
 _MEMBRANE_MODES, _SOLID_MODES, _SOLID_MOVING = (64, 64), (128, 128), (48, 48)
@@ -80,7 +80,7 @@ def neo_hookean(tissue: Tissue) -> Tissue:
 
 
 def reference_curve(
-    dent: Dent, *, depth: float = THIRD, mesh: MeshSize | None = None, steps: int = 6
+    dent: Dent, *, depth: float = DEEPEST, mesh: MeshSize | None = None, steps: int = 6
 ) -> DentCurve:
     """Press finite elements until some layer's deflection is `depth` times the thickness.
 

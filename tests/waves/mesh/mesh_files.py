@@ -2,23 +2,10 @@
 
 from __future__ import annotations
 
-import os
-from importlib import import_module
-from importlib.util import find_spec
-
+import meshio
 import numpy as np
-import pytest
 
 from waves.mesh.meshes import BLOCK, tetrahedra
-
-
-def meshio():
-    """Return meshio; skip where a user has none, fail in continuous integration."""
-    if find_spec("meshio") is None:
-        if os.environ.get("CI") == "true":
-            pytest.fail("meshio is missing; it belongs to the development environment")
-        pytest.skip("meshio is not installed")
-    return import_module("meshio")
 
 
 def block_file(path, *, kind="hexahedron", points=None, cells=None, extra=(), **options):
@@ -29,7 +16,7 @@ def block_file(path, *, kind="hexahedron", points=None, cells=None, extra=(), **
     cells = mesh.cells if cells is None else cells
     blocks = [(kind, cells), (flat, faces), *extra]
     tags = [mesh.region + 1, np.full(len(faces), 9), *(np.full(len(one), 7) for _, one in extra)]
-    meshio().Mesh(
+    meshio.Mesh(
         1e3 * mesh.corners if points is None else points,
         blocks,
         cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},

@@ -1,5 +1,6 @@
 """A mesh in a file becomes a tissue, or a sentence that says what to do."""
 
+import meshio
 import numpy as np
 import pytest
 
@@ -7,7 +8,7 @@ from trocar.errors import InputError
 from trocar.waves.mesh import mesh_file
 from trocar.waves.mesh.reading import _UP
 from trocar.waves.mesh.solid_mesh import SolidMesh, volumes_of
-from waves.mesh.mesh_files import ball, block_file, meshio
+from waves.mesh.mesh_files import ball, block_file
 from waves.mesh.meshes import BLOCK, LAYERS, tetrahedra
 
 BY_NAME = {layer.name: layer for layer in LAYERS.layers}
@@ -32,7 +33,7 @@ def test_a_file_of_gmsh_is_the_mesh_that_was_written(tmp_path, kind):
 def test_other_formats_hold_the_same_solid(tmp_path, ending):
     corners, cells = 1e3 * BLOCK.corners, BLOCK.cells
     path = tmp_path / f"block{ending}"
-    meshio().Mesh(corners, [("hexahedron", cells)]).write(path)
+    meshio.Mesh(corners, [("hexahedron", cells)]).write(path)
     mesh = SolidMesh.read(path, LAYERS.layers[0], held="below")
     assert volumes_of(mesh.corners, mesh.cells).sum() == pytest.approx(0.02 * 0.02 * 0.0062)
     assert len(mesh.held[0].faces) == len(BLOCK.held[0].faces)
@@ -41,7 +42,7 @@ def test_other_formats_hold_the_same_solid(tmp_path, ending):
 def test_groups_of_abaqus_are_regions_and_supports(tmp_path):
     path = tmp_path / "block.inp"
     low = np.flatnonzero(BLOCK.corners[:, 2] < -6.1e-3)
-    meshio().Mesh(
+    meshio.Mesh(
         1e3 * BLOCK.corners,
         [("hexahedron", BLOCK.cells)],
         point_sets={"bed": low},
@@ -57,7 +58,7 @@ def test_quadratic_elements_give_their_corners(tmp_path):
     pairs = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
     points = np.concatenate([corners, [(corners[i] + corners[j]) / 2 for i, j in pairs]])
     path = tmp_path / "one.vtu"
-    meshio().Mesh(points, [("tetra10", np.arange(10)[None])]).write(path)
+    meshio.Mesh(points, [("tetra10", np.arange(10)[None])]).write(path)
     mesh = SolidMesh.read(path, LAYERS.layers[0])
     assert mesh.corners.shape == (4, 3)
 
@@ -74,7 +75,7 @@ def test_every_way_up_keeps_right_hands():
 def test_a_closed_surface_is_filled(tmp_path, ending):
     three, triangles = ball()
     path = tmp_path / f"ball{ending}"
-    meshio().Mesh(three, [("triangle", triangles)]).write(path)
+    meshio.Mesh(three, [("triangle", triangles)]).write(path)
     mesh = SolidMesh.read(path, LAYERS.layers[0], spacing=4e-3)
     a, b, c = np.moveaxis(1e-3 * three[triangles], 1, 0)
     enclosed = np.einsum("kc,kc->k", a, np.cross(b, c)).sum() / 6
@@ -95,14 +96,14 @@ def _read(path, **options):
 
 def _hole(tmp_path):
     three, triangles = ball()
-    meshio().Mesh(three, [("triangle", triangles[:-3])]).write(tmp_path / "hole.stl")
+    meshio.Mesh(three, [("triangle", triangles[:-3])]).write(tmp_path / "hole.stl")
     return tmp_path / "hole.stl"
 
 
 def _two_balls(tmp_path):
     three, triangles = ball(4, 5.0)
     both = np.concatenate([three, three + 30.0])
-    meshio().Mesh(both, [("triangle", np.concatenate([triangles, triangles + len(three)]))]).write(
+    meshio.Mesh(both, [("triangle", np.concatenate([triangles, triangles + len(three)]))]).write(
         tmp_path / "b.ply"
     )
     return tmp_path / "b.ply"
@@ -110,7 +111,6 @@ def _two_balls(tmp_path):
 
 def _written(name, text):
     def write(tmp_path):
-        meshio()
         (tmp_path / name).write_text(text)
         return tmp_path / name
 
@@ -161,7 +161,6 @@ WEDGE = ("wedge", np.array([[0, 1, 2, 3, 4, 5]]))
     ],
 )
 def test_a_file_that_cannot_be_a_tissue_is_refused(tmp_path, file, options, said):
-    meshio()
     with pytest.raises(InputError, match=said):
         _read(file(tmp_path), **options)
 
@@ -187,7 +186,7 @@ def test_regions_need_materials(tmp_path):
 
 def test_a_million_nodes_are_refused(tmp_path, monkeypatch):
     path = tmp_path / "many.vtk"
-    meshio().Mesh(np.zeros((1_000_000, 3)), [("tetra", [[0, 1, 2, 3]])]).write(path)
+    meshio.Mesh(np.zeros((1_000_000, 3)), [("tetra", [[0, 1, 2, 3]])]).write(path)
     with pytest.raises(InputError, match="at most 200000 nodes, got 1000000; make larger elements"):
         _read(path)
     monkeypatch.setattr(mesh_file, "LARGEST_FILE", 1_000)

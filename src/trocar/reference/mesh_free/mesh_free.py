@@ -18,7 +18,7 @@ import numpy as np
 
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
-from trocar.reference.arguments import check_step, checked_size, checked_support
+from trocar.reference.arguments import central_press, check_step, checked_size, checked_support
 from trocar.reference.block import MeshSize
 from trocar.reference.mesh_free.body import Body
 from trocar.reference.mesh_free.cloud import inherited, scatter
@@ -37,7 +37,6 @@ _LEAST_RESOLUTION, _MOST_RESOLUTION = 0.4, 8.0
 _LONGEST_STEP = 2.5e-4  # [s] of implicit time, as of the finite elements
 _QUARTERS = len(QUARTERS)
 _KEPT_PRESSES, _KEPT_STEPS = 16, 2
-_DEFAULT_RADIUS = 1 / 15  # of the shorter side, as of the finite elements
 
 
 class Stepping(StrEnum):
@@ -92,8 +91,7 @@ class MeshFree:
         self._stepping = _checked_stepping(stepping, tissue)
         self._size, self._support = checked_size(size), checked_support(support)
         self._massless, self._resolution, self._cuts = massless, resolution, tuple(cuts)
-        a, b = self._size
-        self._around = around or (Press(x=a / 2, y=b / 2, radius=_DEFAULT_RADIUS * min(a, b), force=1.0),)
+        self._around = around or central_press(self._size)
         cloud = scatter(
             tissue,
             self._size,

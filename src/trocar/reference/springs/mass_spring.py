@@ -13,9 +13,9 @@ import numpy as np
 
 from trocar.errors import InputError
 from trocar.model import Load, Support
-from trocar.reference.arguments import checked_size, checked_support
+from trocar.reference.arguments import central_press, checked_size, checked_support
 from trocar.reference.block import MeshSize, quarter_mesh
-from trocar.reference.block_model import BlockModel, central_press
+from trocar.reference.block_model import BlockModel
 from trocar.reference.springs.boxes import Boxes
 from trocar.reference.springs.lattice import DeformedLattice, Lattice
 from trocar.reference.state import FEAState

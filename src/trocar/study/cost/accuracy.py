@@ -33,7 +33,6 @@ from trocar.waves.stretch.stretching_waves import StretchingWaves
 STATIC, DYNAMIC, LARGE = "static", "dynamic", "large force"
 CASES = (STATIC, DYNAMIC, LARGE)
 SMALL = 0.02  # [N] of the static press and the peak of the dynamic one
-DEEP = 1 / 3  # of the thickness, under large force
 _TICKS = 1000  # a second
 _SLIDE = 1e-4  # [m] a tick
 _FORCES = 4  # equilibria on the way to the large force
@@ -205,7 +204,7 @@ def accuracy_against_cost(
 def _trial(name: str, dent: Dent) -> _Trial:
     if name == LARGE:
         hard = replace(dent, tissue=neo_hookean(dent.tissue))
-        curve = reference_curve(hard, depth=DEEP, mesh=MeshSize())
+        curve = reference_curve(hard)
         return _Trial(
             name=name, dent=hard, load=hard.load(float(curve.force[-1])), answer=curve.deflection[-1]
         )
