@@ -46,7 +46,8 @@ nitpick_ignore_regex = [
     (r"py:.*", r".*\.[A-Z]"),  # type variables have no entry of their own
     (r"py:.*", r".*\.\w+_contra"),
 ]
-suppress_warnings = ["ref.python"]  # a short name that two modules have; that a name leads nowhere is still an error
+# A short name that two modules have; that a name leads nowhere is still an error.
+suppress_warnings = ["ref.python"]
 
 highlight_language = "text"  # a literal block in a docstring is mathematics
 html_theme = "furo"

@@ -11,7 +11,8 @@ from abc import ABC, abstractmethod
 import numpy as np
 
 ABOVE = 9e-3  # [m] over the tissue, on the way to a mark: a swing about the port dips
-LATEST = 0.5  # [s] after which a movement is seen, by a page drawn by software
+LATEST = 3.0  # [s] after which a movement is seen, by a page drawn by software
+FOLLOWED = 0.25  # [s] in which a tip that may follow has followed, once the trainer has the pose
 SIDES = {"left": 0, "right": 1}
 
 
@@ -130,10 +131,12 @@ class Obedient(ABC):
 
     def see(self, hand, seen, distance):
         """Wait until most of a movement is seen, or until it will not come; the tissue may hold a tip back."""
+        before = self.state.pose_sequence[hand]
         end = time.monotonic() + LATEST
-        while True:
+        while time.monotonic() < end:
             self.page.wait_for_timeout(5)
             self.state = self.watcher.look()
-            moved = np.linalg.norm(self.tip(hand) - seen)
-            if moved > 0.7 * distance or time.monotonic() > end:
+            if np.linalg.norm(self.tip(hand) - seen) > 0.7 * distance:
                 return
+            if self.state.pose_sequence[hand] > before:
+                before, end = self.state.pose_sequence[hand], min(end, time.monotonic() + FOLLOWED)

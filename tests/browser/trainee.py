@@ -42,6 +42,10 @@ class Trainee:
         self.page.wait_for_selector("#card[open]", timeout=1e3 * PATIENCE)
         return self.page.inner_text("#card .verdict")
 
+    def kept(self, number):
+        """Return what the trainer keeps of an attempt."""
+        return self.page.request.get(f"{self.page.url.partition('?')[0]}api/attempts/{number}").json()
+
     def figures_are_drawn(self, where):
         """Wait until every picture in a dialog is there, and large."""
         self.until(

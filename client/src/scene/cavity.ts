@@ -7,6 +7,7 @@ import type { Hello } from "../wire/messages";
 import type { ContactShade } from "./contact-shade";
 import { mix, Noise, smoothstep } from "./noise";
 import { type Maps, TILE } from "./skin-texture";
+import { bySoftware } from "./software";
 import { wetMaterial } from "./wet";
 
 const SWELL = 0.012; // height of what bulges beside the tissue [m]
@@ -35,7 +36,7 @@ export function hollow(hello: Hello): { readonly centre: Vector; readonly radius
 
 function makeBed(a: number, b: number, depth: number, radius: number, maps: Maps, shade: ContactShade): Mesh {
   const noise = new Noise(7);
-  const geometry = new RingGeometry(0.1 * Math.min(a, b), radius, 120, 56); // its hole lies under the block
+  const geometry = new RingGeometry(0.1 * Math.min(a, b), radius, ...(bySoftware() ? ([60, 28] as const) : ([120, 56] as const))); // its hole lies under the block
   const position = geometry.getAttribute("position");
   const uv = geometry.getAttribute("uv");
   for (let i = 0; i < position.count; i++) {

@@ -2,6 +2,8 @@
 
 import { Color, HemisphereLight, type Matrix4, type Scene, SpotLight, Vector3 } from "three";
 
+import { bySoftware } from "./software";
+
 const BESIDE = new Vector3(0.0075, 0.009, 0.002); // of the lens, to the right, up and back [m]
 const POWER = 0.0205; // [cd], for a picture that is bright at the working distance
 const WORKING_DISTANCE = 0.07; // at which POWER is right [m]
@@ -14,12 +16,13 @@ export class Lamp {
   constructor(scene: Scene) {
     const { shadow } = this.light;
     this.light.castShadow = true;
-    shadow.mapSize.set(2048, 2048);
+    const side = bySoftware() ? 512 : 2048; // of the shadow's picture [texels]
+    shadow.mapSize.set(side, side);
     shadow.camera.near = 0.008;
     shadow.camera.far = 0.6;
     shadow.bias = -0.0006;
     shadow.normalBias = 0.0004;
-    shadow.radius = 3;
+    shadow.radius = bySoftware() ? 1 : 3;
     shadow.intensity = 0.9; // what wet walls send back reaches everywhere
     // Light that comes back from red walls all round.
     scene.add(this.light, this.light.target, new HemisphereLight(new Color(0.5, 0.24, 0.3), new Color(0.4, 0.14, 0.1), 0.3));

@@ -6,6 +6,7 @@ import type { View } from "../input/device";
 import { cross, norm, subtract, type Vector } from "../vector";
 import { FIELD, type Look } from "./scope";
 import { type Choice, Sharpness } from "./sharpness";
+import { bySoftware } from "./software";
 import type { Theatre } from "./theatre";
 
 const NEAR = 0.002; // [m]
@@ -25,7 +26,7 @@ export class Picture {
     private readonly canvas: HTMLCanvasElement,
     private readonly theatre: Theatre,
   ) {
-    const slow = drawnBySoftware();
+    const slow = bySoftware();
     this.sharpness = new Sharpness(slow ? 2 : 0);
     this.renderer = new WebGLRenderer({ canvas, antialias: !slow, powerPreference: "high-performance" });
     this.renderer.toneMappingExposure = 0.9;
@@ -75,14 +76,4 @@ export class Picture {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXELS) * this.sharpness.share);
     this.renderer.setSize(side, side, false);
   }
-}
-
-/** Whether this browser draws without a graphics processor, by the names such renderers give themselves. */
-function drawnBySoftware(): boolean {
-  const context = document.createElement("canvas").getContext("webgl2");
-  if (!context) return false;
-  const named = context.getExtension("WEBGL_debug_renderer_info");
-  const name: unknown = context.getParameter(named ? named.UNMASKED_RENDERER_WEBGL : context.RENDERER);
-  context.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software/i.test(String(name));
 }

@@ -21,7 +21,7 @@ export class Sharpness {
   /** Share of the display's pixels to draw, each way. */
   get share(): number {
     if (this.choice === "sharp") return STEPS[0];
-    if (this.choice === "fast") return STEPS[2];
+    if (this.choice === "fast") return STEPS[3];
     return STEPS[this.step] ?? 1;
   }
 

@@ -12,6 +12,7 @@ import {
 
 import { makeLobules } from "./lobules";
 import { mix, Noise, smoothstep } from "./noise";
+import { bySoftware } from "./software";
 import { vessels } from "./vessels";
 
 export const TILE = 0.045; // what one period of a texture spans [m]
@@ -113,7 +114,7 @@ function texture(texels: Uint8Array, size: number, space: string): DataTexture {
   made.magFilter = LinearFilter;
   made.minFilter = LinearMipmapLinearFilter;
   made.generateMipmaps = true;
-  made.anisotropy = 4;
+  made.anisotropy = bySoftware() ? 1 : 4;
   made.colorSpace = space;
   made.needsUpdate = true;
   return made;
