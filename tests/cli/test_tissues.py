@@ -54,7 +54,7 @@ def test_list_as_json(app: typer.Typer) -> None:
 def test_show_prints_every_value_within_the_width(app: typer.Typer, name: str, columns: int) -> None:
     text = run(app, "show", name, columns=columns)
     assert max(map(len, text.splitlines())) <= columns
-    for item in catalogue.record(name).properties:
+    for item in catalogue.record(name).stated:
         assert f"{item.value:g}" in text
         assert item.unit in text
 

@@ -35,7 +35,7 @@ def test_every_usable_preset_is_a_tissue(name: str) -> None:
 
 def test_every_value_says_where_it_comes_from(record: TissueRecord) -> None:
     assert len(record.why) > 200  # an argument, not a remark
-    for item in record.properties:
+    for item in record.stated:
         assert item.source
         assert item.method.technique
         assert item.status in Status
@@ -43,12 +43,12 @@ def test_every_value_says_where_it_comes_from(record: TissueRecord) -> None:
 
 
 def test_only_choices_are_marked_as_chosen(record: TissueRecord) -> None:
-    for item in record.properties:
+    for item in record.stated:
         assert (item.method.setting is Setting.CHOICE) == (item.status is Status.CHOSEN), item
 
 
 def test_only_the_paper_preset_is_printed(record: TissueRecord) -> None:
-    printed = all(item.method.setting is Setting.PRINTED for item in record.properties)
+    printed = all(item.method.setting is Setting.PRINTED for item in record.stated)
     assert printed == (record.usable is Usable.PAPER) == (record.name == catalogue.PAPER_PRESET)
 
 
@@ -180,7 +180,10 @@ def test_a_file_is_taken_wherever_a_preset_is(tmp_path: Path) -> None:
 
 def test_the_tissue_of_the_how_to_is_one() -> None:
     page = (Path(__file__).parents[2] / "docs/how-to/bring-your-own-tissue.md").read_text(encoding="utf-8")
-    text = page.split("```toml\n", 1)[1].split("```", 1)[0]
-    found = parse_tissue(text, file="my-liver.toml", name="my-liver").tissue()
+    first, more = (part.split("```", 1)[0] for part in page.split("```toml\n")[1:])
+    found = parse_tissue(first, file="my-liver.toml", name="my-liver").tissue()
     assert found.layer_names == ("capsule", "parenchyma")
     assert found.thickness == pytest.approx(0.0301)
+    creeps = parse_tissue(first + more, file="my-liver.toml", name="my-liver").tissue()
+    assert creeps.layers[1].prony == ((0.6, 0.05), (0.4, 2.0))
+    assert replace(creeps.layers[1], prony=()) == found.layers[1]

@@ -16,7 +16,7 @@ from rich.table import Table
 
 from trocar.tissues import catalogue
 from trocar.tissues.page import page, section
-from trocar.tissues.record import LayerRecord, Property, Status, TissueRecord, Usable
+from trocar.tissues.record import LayerRecord, Statement, Status, TissueRecord, Usable
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON alone.")]
 
@@ -112,9 +112,9 @@ def _shown_record(record: TissueRecord, *, full: bool) -> list[RenderableType]:
         parts += ["", _layer_table(layer, f"layer {place}: {layer.name}")]
         parts += _notes(layer) if full else []
     remembered = ", ".join(
-        f"{item.quantity.title} of {layer.name}"
+        f"{item.title} of {layer.name}"
         for layer in record.layers
-        for item in layer.properties
+        for item in layer.stated
         if item.status is Status.REMEMBERED
     )
     if remembered:
@@ -125,22 +125,22 @@ def _shown_record(record: TissueRecord, *, full: bool) -> list[RenderableType]:
 def _layer_table(layer: LayerRecord, title: str) -> Table:
     table = _table("property", "value", "status", "source and method", title=escape(title))
     table.columns[2].no_wrap = True
-    for item in layer.properties:
+    for item in layer.stated:
         source = escape(f"{item.source}; {item.method}")
-        table.add_row(item.quantity.title, _value(item), _word(item.status), source)
+        table.add_row(item.title, _value(item), _word(item.status), source)
     return table
 
 
 def _notes(layer: LayerRecord) -> list[RenderableType]:
-    reasons = [f"- why this {item.quantity.title}: {item.reason}" for item in layer.properties if item.reason]
-    rivals = [f"- other {item.quantity.title}: {text}" for item in layer.properties for text in item.also]
+    reasons = [f"- why this {item.title}: {item.reason}" for item in layer.stated if item.reason]
+    rivals = [f"- other {item.title}: {text}" for item in layer.stated for text in item.also]
     return [escape(line) for line in reasons + rivals]
 
 
-def _value(item: Property) -> str:
+def _value(item: Statement) -> str:
     unit = "" if item.unit == "1" else f" {item.unit}"
     spread = f"\n({item.spread_text})" if isinstance(item.spread, tuple) else f" {item.spread_text}".rstrip()
-    return f"{item.value:g}{unit}{spread}" if "\n" in spread else f"{item.value:g}{spread}{unit}"
+    return f"{item.value_text}{unit}{spread}" if "\n" in spread else f"{item.value_text}{spread}{unit}"
 
 
 def _word(status: Status) -> str:

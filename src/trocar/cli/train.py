@@ -111,6 +111,11 @@ def train(
     log = Console(stderr=True, highlight=False)
     with log.status("laying the tissue and its waves out ...") as status:
         stage = set_stage(tissue, ports=ports, model=model)
+        if stage.tissue.large_deformation:
+            log.print(
+                "The trainer's waves are linear: of the layers' laws for large strain they take the beginning. "
+                "The mark on the bars of force tells how far that is right."
+            )
         records = Records.open()
         if records.note:
             log.print(records.note)

@@ -11,6 +11,7 @@ from trocar.study.cases.experiment import Case, case_from_tissue
 from trocar.study.cases.quantity import LEAST_TOOL_RATIO
 from trocar.study.cases.tool import Tool
 from trocar.tissues.catalogue import tissue as preset
+from trocar.tissues.tissue import Tissue
 from trocar.units import MILLIMETRE
 
 BLOCK = (60 * MILLIMETRE, 60 * MILLIMETRE)  # Table 1 of the paper
@@ -72,6 +73,11 @@ class Plan:
         tools = tuple(replace(self._tool(self.small), position=(share * a, b / 2)) for share in PAIR)
         return self._case("two tools", tools)
 
+    @property
+    def layers(self) -> Tissue:
+        """The tissue, with its laws for large strain."""
+        return preset(self.tissue)
+
     def tap(self) -> Case:
         """Return a tap of 20 ms and the rest after it."""
         tool = replace(self._tool(self.small), rate=self.small / TAP)
@@ -87,7 +93,7 @@ class Plan:
     def _case(self, title: str, tools: tuple[Tool, ...], support: Support | None = None) -> Case:
         duration = max(tool.duration for tool in tools)
         return case_from_tissue(
-            tissue=preset(self.tissue),
+            tissue=self.layers.linearised,  # laws for large strain are for pressing hard
             size=BLOCK,
             tools=tools,
             support=support or self.support,

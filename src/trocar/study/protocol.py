@@ -142,7 +142,7 @@ def run_study(plan: Plan, watch: Watch = lambda _what, _share: None) -> Study:
     strength = _strength(plan)
     watch("pressing hard", 0.78)
     validity = validity_map(
-        small.case.tissue,
+        plan.layers,
         size=small.case.size,
         support=plan.support,
         diameters=(plan.diameter,) if plan.quick else DIAMETERS,

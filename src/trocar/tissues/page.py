@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from trocar.tissues.record import LayerRecord, Property, Status, TissueRecord, Usable
+from trocar.tissues.record import LayerRecord, Statement, Status, TissueRecord, Usable
 
 _HEAD = """\
 # Tissue presets
@@ -39,8 +39,8 @@ def section(record: TissueRecord) -> str:
 
 def _table(layer: LayerRecord) -> str:
     rows = ["| property | value | unit | status | source | method |", "|---|---|---|---|---|---|"]
-    for item in layer.properties:
-        cells = (item.quantity.title, _value(item), item.unit, _status(item), item.source, str(item.method))
+    for item in layer.stated:
+        cells = (item.title, _value(item), item.unit, _status(item), item.source, str(item.method))
         rows.append(f"| {' | '.join(map(_cell, cells))} |")
     return "\n".join(rows)
 
@@ -49,21 +49,21 @@ def _cell(text: str) -> str:
     return text.replace("|", r"\|")
 
 
-def _value(item: Property) -> str:
-    return f"{item.value:g} {_spread(item)}".strip()
+def _value(item: Statement) -> str:
+    return f"{item.value_text} {_spread(item)}".strip()
 
 
-def _spread(item: Property) -> str:
+def _spread(item: Statement) -> str:
     return f"({item.spread_text})" if isinstance(item.spread, tuple) else item.spread_text
 
 
-def _status(item: Property) -> str:
+def _status(item: Statement) -> str:
     return f"**{item.status.value}**" if item.status is Status.REMEMBERED else item.status.value
 
 
 def _notes(layer: LayerRecord) -> list[str]:
-    reasons = [f"- {item.quantity.title}: {item.reason}" for item in layer.properties if item.reason]
-    rivals = [f"- {item.quantity.title}: {text}" for item in layer.properties for text in item.also]
+    reasons = [f"- {item.title}: {item.reason}" for item in layer.stated if item.reason]
+    rivals = [f"- {item.title}: {text}" for item in layer.stated for text in item.also]
     notes = []
     if reasons:
         notes.append("\n".join(["Reasons:", "", *reasons]))

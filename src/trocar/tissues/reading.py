@@ -12,6 +12,11 @@ unit = "kPa"
 status = "read"                 # "read" | "derived" | "chosen" | "remembered"
 source = "Diridollou et al. 2000"
 method = { setting = "in vivo", technique = "suction", site = "forearm", species = "human" }
+[layer.law]                     # may be left out: linear. The keys are a case file's; below, where it comes from
+law = "ogden"
+ogden = [[1.0, 9.0]]
+[layer.memory]                  # may be left out: none. Pairs of g [1] and tau [s]
+prony = [[0.4, 0.02], [0.3, 1.5]]
 ```
 
 Whatever is unknown, missing, of the wrong type or impossible is refused with the file, the key, what was
@@ -21,20 +26,35 @@ expected and what came.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
 from enum import StrEnum
 from importlib.resources.abc import Traversable
-from math import isfinite
 from pathlib import Path
 from typing import Any, TypeVar
 
 from trocar.errors import InputError
+from trocar.tissues.key_quantity import MOST_LAYERS
+from trocar.tissues.key_table import Table, finite
+from trocar.tissues.law_keys import LAW_KEYS, MEMORY_KEY, read_law, read_prony
 from trocar.tissues.quantity import BONDED_KEYS, LAYER_QUANTITIES, PAPER_QUANTITIES, Quantity
-from trocar.tissues.record import LayerRecord, Method, Property, Setting, Spread, Status, TissueRecord, Usable
+from trocar.tissues.record import (
+    LayerRecord,
+    Method,
+    Property,
+    Setting,
+    Spread,
+    Stated,
+    StatedLaw,
+    StatedMemory,
+    Status,
+    TissueRecord,
+    Usable,
+)
 
 EnumType = TypeVar("EnumType", bound=StrEnum)
 
 _EXPLAINED = (Status.CHOSEN, Status.DERIVED)  # these must say why, or how
+_ORIGIN = ("source", "method", "status", "reason", "also")
+_METHOD = ("setting", "technique", "rate", "site", "species")
 
 
 def read_tissue(path: Path | Traversable) -> TissueRecord:
@@ -70,165 +90,118 @@ def parse_tissue(text: str, *, file: str, name: str) -> TissueRecord:
         content = tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # also: an integer too long, brackets too deep
         raise InputError(file, "a TOML file", str(error)) from None
-    table = _Table(content, file, "")
-    title, why = table.text("title"), table.text("why")
-    usable = table.choice("usable", Usable, default=Usable.ANY)
-    instead = table.text("instead", required=usable is not Usable.ANY)
-    quantities = LAYER_QUANTITIES if usable is Usable.ANY else PAPER_QUANTITIES
-    layers = tuple(_layer(entry, quantities) for entry in table.tables("layer"))
-    table.finish()
-    names = [layer.name for layer in layers]
+    table = Table(file, "", content)
+    table.only(("title", "why", "usable", "instead", "layer"))
+    usable = _choice(table, "usable", Usable, default=Usable.ANY)
+    read = TissueRecord(
+        name=name,
+        title=table.prose("title"),
+        why=table.prose("why"),
+        usable=usable,
+        instead=table.prose("instead", required=usable is not Usable.ANY),
+        layers=tuple(_layer(entry, usable) for entry in table.tables("layer", MOST_LAYERS)),
+    )
+    names = [layer.name for layer in read.layers]
     if len(set(names)) != len(names):
-        raise InputError(f"{file}: layer", "every name once", names)
-    return TissueRecord(name=name, title=title, why=why, usable=usable, instead=instead, layers=layers)
+        raise table.refuse("layer", "every name once", names)
+    if usable is Usable.ANY:
+        try:
+            read.tissue()
+        except InputError as error:  # layers that are each possible and do not go together
+            raise table.refuse("layer", f"{error.where}: {error.expected}", error.got, error.advice) from None
+    return read
 
 
-def _layer(table: _Table, quantities: Mapping[str, Quantity]) -> LayerRecord:
-    name = table.text("name")
-    table.call_it(name)
-    properties = []
-    for key, quantity in quantities.items():
-        entry = table.table(key, required=quantity.required)
-        if entry is not None:
-            properties.append(_property(key, quantity, entry))
-    table.finish()
-    stated = {item.key for item in properties}
+def _layer(table: Table, usable: Usable) -> LayerRecord:
+    name = table.prose("name")
+    table = Table(table.file, f"layer {name!r}", table.content)
+    quantities = LAYER_QUANTITIES if usable is Usable.ANY else PAPER_QUANTITIES
+    table.only(("name", *quantities, *(("law", "memory") if usable is Usable.ANY else ())))
+    stated = {key for key in quantities if key in table.content}
     for pair in BONDED_KEYS:
         for one, other in (pair, pair[::-1]):
             if one in stated and other not in stated:
-                raise InputError(table.where(other), f"a table, because {one} is stated", None)
-    return LayerRecord(name=name, properties=tuple(properties))
+                table.table(other, because=f"{one} is stated")
+    return LayerRecord(
+        name=name,
+        properties=tuple(
+            _property(key, quantity, table.table(key))
+            for key, quantity in quantities.items()
+            if quantity.required or key in stated
+        ),
+        law=_law(table.table("law")) if "law" in table.content else None,
+        memory=_memory(table.table("memory")) if "memory" in table.content else None,
+    )
 
 
-def _property(key: str, quantity: Quantity, table: _Table) -> Property:
-    unit = table.text("unit")
-    if unit not in quantity.units:
-        raise InputError(table.where("unit"), f"one of {', '.join(quantity.units)}", unit)
-    value = table.number("value")
+def _property(key: str, quantity: Quantity, table: Table) -> Property:
+    table.only(("value", "spread", "unit", *_ORIGIN))
+    unit = table.choice("unit", tuple(quantity.units))
+    value = finite(table.value("value", "a finite number"))
+    if value is None:
+        raise table.refuse("value", "a finite number", table.content["value"])
     if not quantity.holds(value * quantity.units[unit]):
         advice = f"that is {value * quantity.units[unit]:g} {quantity.si_unit}; is the unit right?"
-        raise InputError(table.where("value"), quantity.expected, value, advice)
-    status = table.choice("status", Status)
-    found = Property(
-        key=key,
-        value=value,
-        spread=table.spread(value),
-        unit=unit,
-        source=table.text("source"),
-        method=_method(table),
+        raise table.refuse("value", quantity.expected, value, advice)
+    return Property(key=key, value=value, spread=_spread(table, value), unit=unit, **_origin(table))
+
+
+def _law(table: Table) -> StatedLaw:
+    table.only((*LAW_KEYS, *_ORIGIN))
+    return StatedLaw(law=read_law(table), **_origin(table))
+
+
+def _memory(table: Table) -> StatedMemory:
+    table.only((MEMORY_KEY, *_ORIGIN))
+    table.value(MEMORY_KEY, "pairs of g and tau")
+    return StatedMemory(prony=read_prony(table), **_origin(table))
+
+
+def _origin(table: Table) -> dict[str, Any]:
+    """Return what every `Stated` has."""
+    status = _choice(table, "status", Status)
+    origin = Stated(
+        source=table.prose("source"),
+        method=_method(table.table("method")),
         status=status,
-        reason=table.text("reason", required=status in _EXPLAINED),
-        also=table.texts("also"),
+        reason=table.prose("reason", required=status in _EXPLAINED),
+        also=_texts(table, "also"),
     )
-    table.finish()
-    return found
+    return vars(origin)
 
 
-def _method(parent: _Table) -> Method:
-    table = parent.table("method", required=True)
-    assert table is not None
-    method = Method(
-        setting=table.choice("setting", Setting),
-        technique=table.text("technique"),
-        rate=table.text("rate", required=False),
-        site=table.text("site", required=False),
-        species=table.text("species", required=False),
+def _method(table: Table) -> Method:
+    table.only(_METHOD)
+    return Method(
+        setting=_choice(table, "setting", Setting),
+        technique=table.prose("technique"),
+        rate=table.prose("rate", required=False),
+        site=table.prose("site", required=False),
+        species=table.prose("species", required=False),
     )
-    table.finish()
-    return method
 
 
-class _Table:
-    """A TOML table being read: hands out checked values and remembers which keys were asked for."""
-
-    def __init__(self, content: Mapping[str, Any], file: str, path: str) -> None:
-        self._content, self._file, self._path = content, file, path
-        self._asked: set[str] = set()
-
-    def where(self, key: str) -> str:
-        """Name a key as errors do: file, path, key."""
-        return f"{self._file}: {self._path}{key}"
-
-    def call_it(self, name: str) -> None:
-        """Name the table in errors by what it describes, not by its number."""
-        self._path = f"layer {name!r}: "
-
-    def finish(self) -> None:
-        """Refuse keys nobody asked for."""
-        for key in self._content:
-            if key not in self._asked:
-                raise InputError(self.where(key), f"one of the keys {', '.join(sorted(self._asked))}", key)
-
-    def _take(self, key: str, *, expected: str, required: bool) -> Any:
-        self._asked.add(key)
-        if required and key not in self._content:
-            raise InputError(self.where(key), expected, None, "the key is missing")
-        return self._content.get(key)
-
-    def text(self, key: str, *, required: bool = True) -> str:
-        value = self._take(key, expected="a text", required=required)
-        if value is None:
-            return ""
-        if not isinstance(value, str) or not value.strip():
-            raise InputError(self.where(key), "a text", value)
-        return value.strip()
-
-    def texts(self, key: str) -> tuple[str, ...]:
-        value = self._take(key, expected="a list of texts", required=False)
-        if value is None:
-            return ()
-        if not isinstance(value, list) or not all(isinstance(item, str) and item.strip() for item in value):
-            raise InputError(self.where(key), "a list of texts", value)
-        return tuple(item.strip() for item in value)
-
-    def number(self, key: str) -> float:
-        value = self._take(key, expected="a number", required=True)
-        if not _is_number(value):
-            raise InputError(self.where(key), "a finite number", value)
-        return float(value)
-
-    def choice(self, key: str, kind: type[EnumType], default: EnumType | None = None) -> EnumType:
-        expected = f"one of {', '.join(repr(item.value) for item in kind)}"
-        value = self._take(key, expected=expected, required=default is None)
-        if value is None and default is not None:
-            return default
-        if not isinstance(value, str) or value not in {item.value for item in kind}:
-            raise InputError(self.where(key), expected, value)
-        return kind(value)
-
-    def spread(self, value: float) -> Spread:
-        expected = 'a standard deviation, [low, high] around the value, or "none"'
-        spread = self._take("spread", expected=expected, required=True)
-        if spread == "none":
-            return None
-        if _is_number(spread) and spread > 0:
-            return float(spread)
-        if isinstance(spread, list) and len(spread) == 2 and all(map(_is_number, spread)):
-            low, high = map(float, spread)
-            if low <= value <= high and low < high:
-                return low, high
-        raise InputError(self.where("spread"), expected, spread)
-
-    def table(self, key: str, *, required: bool) -> _Table | None:
-        value = self._take(key, expected="a table", required=required)
-        if value is None:
-            return None
-        if not isinstance(value, dict):
-            raise InputError(self.where(key), "a table", value)
-        return _Table(value, self._file, f"{self._path}{key}.")
-
-    def tables(self, key: str) -> list[_Table]:
-        expected = "one [[layer]] table at least"
-        value = self._take(key, expected=expected, required=True)
-        if not isinstance(value, list) or not value or not all(isinstance(item, dict) for item in value):
-            raise InputError(self.where(key), expected, value)
-        return [_Table(item, self._file, f"{key} {place}: ") for place, item in enumerate(value, start=1)]
+def _choice(table: Table, key: str, kind: type[EnumType], default: EnumType | None = None) -> EnumType:
+    return kind(table.choice(key, tuple(item.value for item in kind), default=default))
 
 
-def _is_number(value: object) -> bool:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return False
-    try:
-        return isfinite(value)
-    except OverflowError:  # TOML integers have no largest value
-        return False
+def _texts(table: Table, key: str) -> tuple[str, ...]:
+    value = table.content.get(key, [])
+    if not isinstance(value, list) or not all(isinstance(item, str) and item.strip() for item in value):
+        raise table.refuse(key, "a list of texts", value)
+    return tuple(item.strip() for item in value)
+
+
+def _spread(table: Table, value: float) -> Spread:
+    expected = 'a standard deviation, [low, high] around the value, or "none"'
+    spread = table.value("spread", expected)
+    if spread == "none":
+        return None
+    deviation = finite(spread)
+    if deviation is not None and deviation > 0:
+        return deviation
+    if isinstance(spread, list) and len(spread) == 2:
+        low, high = map(finite, spread)
+        if low is not None and high is not None and low <= value <= high and low < high:
+            return low, high
+    raise table.refuse("spread", expected, spread)

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import Any, ClassVar
 
 from trocar.errors import InputError
-from trocar.tissues.law import LINEAR
-from trocar.tissues.layer import Layer
+from trocar.tissues.law import LINEAR, Law
+from trocar.tissues.law_keys import law_keys, law_text
+from trocar.tissues.layer import Layer, Prony
 from trocar.tissues.quantity import LAYER_QUANTITIES, PAPER_QUANTITIES, Quantity
 from trocar.tissues.tissue import Tissue
 from trocar.units import MILLIMETRE
@@ -67,14 +68,10 @@ class Method:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Property:
-    """One value and where it comes from.
+class Stated:
+    """Where something that a layer states comes from.
 
     Args:
-        key: name of the quantity.
-        value: in `unit`.
-        spread: in `unit`: a standard deviation, a (low, high) range, or None where the source gives none.
-        unit: as people write it.
         source: author and year, or the table it stands in.
         method: how it was measured.
         status: read, derived, chosen or remembered.
@@ -82,15 +79,55 @@ class Property:
         also: other published values, in words.
     """
 
-    key: str
-    value: float
-    spread: Spread
-    unit: str
     source: str
     method: Method
     status: Status
     reason: str = ""
     also: tuple[str, ...] = ()
+
+    @property
+    def origin(self) -> dict[str, Any]:
+        """All of this as plain values for JSON."""
+        return {
+            "source": self.source,
+            "method": {
+                "setting": self.method.setting.value,
+                "technique": self.method.technique,
+                "rate": self.method.rate,
+                "site": self.method.site,
+                "species": self.method.species,
+            },
+            "status": self.status.value,
+            "reason": self.reason,
+            "also": list(self.also),
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class Property(Stated):
+    """One value and where it comes from.
+
+    Args:
+        key: name of the quantity.
+        value: in `unit`.
+        spread: in `unit`: a standard deviation, a (low, high) range, or None where the source gives none.
+        unit: as people write it.
+    """
+
+    key: str
+    value: float
+    spread: Spread
+    unit: str
+
+    @property
+    def title(self) -> str:
+        """How it is called in tables."""
+        return self.quantity.title
+
+    @property
+    def value_text(self) -> str:
+        """The value without its unit."""
+        return f"{self.value:g}"
 
     @property
     def quantity(self) -> Quantity:
@@ -120,26 +157,76 @@ class Property:
             "unit": self.unit,
             "si_value": self.si,
             "si_unit": self.quantity.si_unit,
-            "source": self.source,
-            "method": {
-                "setting": self.method.setting.value,
-                "technique": self.method.technique,
-                "rate": self.method.rate,
-                "site": self.method.site,
-                "species": self.method.species,
-            },
-            "status": self.status.value,
-            "reason": self.reason,
-            "also": list(self.also),
+            **self.origin,
         }
 
 
 @dataclass(frozen=True, kw_only=True)
+class StatedLaw(Stated):
+    """A law and where it comes from."""
+
+    law: Law
+    key: ClassVar = "law"
+    title: ClassVar = "law"
+    unit: ClassVar = "1"
+    spread: ClassVar = None
+    spread_text: ClassVar = ""
+
+    @property
+    def value_text(self) -> str:
+        """The law in words, with its numbers."""
+        return law_text(self.law)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return everything as plain values for JSON."""
+        return {**law_keys(self.law), **self.origin}
+
+
+@dataclass(frozen=True, kw_only=True)
+class StatedMemory(Stated):
+    """A Prony series and where it comes from."""
+
+    prony: Prony
+    key: ClassVar = "memory"
+    title: ClassVar = "memory"
+    unit: ClassVar = "1"
+    spread: ClassVar = None
+    spread_text: ClassVar = ""
+
+    @property
+    def value_text(self) -> str:
+        """The terms in words."""
+        return ", ".join(f"g {weight:g} over {time:g} s" for weight, time in self.prony)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return everything as plain values for JSON; `prony` holds pairs of g [1] and tau [s]."""
+        return {"prony": [list(term) for term in self.prony], **self.origin}
+
+
+Statement = Property | StatedLaw | StatedMemory
+"""Anything that a layer states."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class LayerRecord:
-    """One layer as stated: its name and its properties, in the order of the quantities."""
+    """One layer as stated.
+
+    Args:
+        name: of the layer.
+        properties: in the order of the quantities.
+        law: how stress follows from stretch; None where the layer says nothing, which means linear.
+        memory: its Prony series; None where the layer does not remember.
+    """
 
     name: str
     properties: tuple[Property, ...]
+    law: StatedLaw | None = None
+    memory: StatedMemory | None = None
+
+    @property
+    def stated(self) -> tuple[Statement, ...]:
+        """Everything it states: properties, law, memory."""
+        return *self.properties, *(item for item in (self.law, self.memory) if item is not None)
 
     def get(self, key: str) -> Property | None:
         """Return the property with this key, or None where the layer does not state it."""
@@ -155,7 +242,12 @@ class LayerRecord:
     def layer(self) -> Layer:
         """Return the layer in SI, for a model."""
         values: dict[str, Any] = {item.key: item.si for item in self.properties}
-        return Layer(name=self.name, law=LINEAR, **values)
+        return Layer(
+            name=self.name,
+            law=LINEAR if self.law is None else self.law.law,
+            prony=() if self.memory is None else self.memory.prony,
+            **values,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -179,9 +271,9 @@ class TissueRecord:
     layers: tuple[LayerRecord, ...]
 
     @property
-    def properties(self) -> Iterator[Property]:
-        """Every property of every layer, top first."""
-        return (item for layer in self.layers for item in layer.properties)
+    def stated(self) -> Iterator[Statement]:
+        """Everything that every layer states, top first."""
+        return (item for layer in self.layers for item in layer.stated)
 
     @property
     def thickness(self) -> float:
@@ -189,8 +281,8 @@ class TissueRecord:
         return sum(layer["thickness"].si for layer in self.layers)
 
     def count(self, status: Status) -> int:
-        """Return how many values have this status."""
-        return sum(item.status is status for item in self.properties)
+        """Return how many of the things stated have this status."""
+        return sum(item.status is status for item in self.stated)
 
     def layer(self, name: str) -> LayerRecord:
         """Return the layer with this name.
@@ -234,7 +326,7 @@ class TissueRecord:
             "instead": self.instead,
             "why": self.why,
             "layers": [
-                {"name": layer.name, "properties": {item.key: item.as_dict() for item in layer.properties}}
+                {"name": layer.name, "properties": {item.key: item.as_dict() for item in layer.stated}}
                 for layer in self.layers
             ],
         }

@@ -1,13 +1,11 @@
 """A fitted tissue as a file."""
 
-import tomllib
-
 import pytest
 
 from pressed_pads import blank, filled, pad, softer, triangle
 from trocar.errors import InputError
 from trocar.study.calibration.calibration import calibrate
-from trocar.study.calibration.tissue_file import check_tissue_file, tissue_lines, write_tissue_file
+from trocar.study.calibration.tissue_file import check_tissue_file, write_tissue_file
 from trocar.tissues import catalogue
 from trocar.tissues.record import Setting, Status
 
@@ -38,14 +36,16 @@ def test_it_is_a_tissue_that_says_where_each_value_is_from(tmp_path):
     assert "The data tell body.young_modulus" in record.why
 
 
-def test_a_series_stands_as_in_a_case_file():
+def test_what_it_remembers_is_read_back(tmp_path):
     case = pad(prony=((0.5, 0.4), (0.2, 3.0)))
-    text = "\n".join(tissue_lines(fitted(case, ("body.young_modulus", "body.prony[0].g")), Setting.MATERIAL))
-    body = tomllib.loads(text)["layer"][1]
-    (g, tau), second = body["prony"]
-    assert g != 0.5
-    assert (tau, second) == (0.4, [0.2, 3.0])
-    assert "# prony[0].g: " in text
+    done = fitted(case, ("body.young_modulus", "body.prony[0].g"))
+    write_tissue_file(tmp_path / "mine.toml", done, Setting.MATERIAL)
+    read = catalogue.record(str(tmp_path / "mine.toml")).layer("body").memory
+    (g, tau), second = read.prony
+    assert g == pytest.approx(done.known.estimates[1].value, rel=1e-4)  # five digits are written
+    assert (tau, second) == (0.4, (0.2, 3.0))
+    assert read.status is Status.DERIVED
+    assert "prony[0].g: within" in read.reason
 
 
 def test_what_is_no_place_for_it_is_refused(tmp_path):

@@ -18,7 +18,7 @@ import numpy as np
 
 from trocar.errors import InputError
 from trocar.model import FloatArray
-from trocar.study.cases.key_table import Words, printable
+from trocar.tissues.key_table import Words, printable
 
 MOST_BYTES = 16 * 2**20
 MOST_ROWS = 50_000

@@ -14,7 +14,7 @@ from math import exp, log
 from typing import Any
 
 from trocar.errors import InputError
-from trocar.study.cases.key_table import Words
+from trocar.tissues.key_table import Words
 from trocar.tissues.layer import LARGEST_WEIGHT, LONGEST_TIME, SHORTEST_TIME, Layer
 from trocar.tissues.tissue import Tissue
 from trocar.units import KILOPASCAL, MILLIMETRE

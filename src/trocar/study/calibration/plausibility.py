@@ -8,7 +8,7 @@ from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.study.calibration.fit import Problem
 from trocar.study.calibration.reading import FEWEST_ROWS
-from trocar.study.cases.key_table import Words
+from trocar.tissues.key_table import Words
 from trocar.units import MILLIMETRE
 
 _FAR = 300.0  # a start whose compliance is this many times off is a wrong unit, or no start

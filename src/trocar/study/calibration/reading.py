@@ -23,7 +23,7 @@ from trocar.model import FloatArray
 from trocar.study.calibration.columns import Columns, read_columns
 from trocar.study.calibration.measurement import DEPTH, Measurement, Readings
 from trocar.study.cases.experiment import Case
-from trocar.study.cases.key_table import Words
+from trocar.tissues.key_table import Words
 from trocar.units import MILLIMETRE
 
 TIME, FORCE, DISPLACEMENT = "time_s", "force_n", "displacement_mm"

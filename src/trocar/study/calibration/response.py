@@ -23,10 +23,10 @@ from trocar.study.calibration.unit_response import (
     spectrum_serves,
 )
 from trocar.study.cases.experiment import Case
-from trocar.study.cases.key_table import Words
 from trocar.study.cases.tool import Tip
 from trocar.study.deflection import deflections, search_points
 from trocar.study.models import MODELS, MOST_MEMBRANE_MODES, AnyModel, series_modes
+from trocar.tissues.key_table import Words
 from trocar.waves.membrane import WaveMembrane
 
 MODEL_NAMES = ("wave-solid", "wave-membrane", "fea")

@@ -9,9 +9,9 @@ from trocar.errors import InputError
 from trocar.study.calibration.calibration import Calibration
 from trocar.study.calibration.identifiability import Estimate
 from trocar.study.calibration.parameter import of_sheets
-from trocar.study.cases.key_table import Words
 from trocar.study.report.table import percent
 from trocar.study.writing.whole_file import write_whole
+from trocar.tissues.key_table import Words
 from trocar.tissues.layer import Layer
 from trocar.tissues.record import Setting
 from trocar.units import KILOPASCAL, MILLIMETRE
@@ -83,8 +83,6 @@ def tissue_lines(calibration: Calibration, setting: Setting) -> Iterator[str]:
     fitted = {item.parameter.name: item for item in calibration.known.estimates}
     for layer in calibration.specimen.tissue.layers:
         yield from ("", "[[layer]]", f"name = {_text(layer.name)}")
-        if layer.prony:
-            yield from _memory(layer, fitted)
         damped = layer.loss_factor > 0
         for key, unit, factor, only_some in _STATED:
             stated = damped if key.startswith("loss") else layer.prestress_x + layer.prestress_y > 0
@@ -95,15 +93,22 @@ def tissue_lines(calibration: Calibration, setting: Setting) -> Iterator[str]:
                 yield from _property(
                     key, getattr(layer, key) / factor, unit, factor, item, calibration, setting
                 )
+        if layer.prony:
+            yield from _memory(layer, fitted, calibration, setting)
 
 
-def _memory(layer: Layer, fitted: dict[str, Estimate]) -> Iterator[str]:
-    for term, _ in enumerate(layer.prony):
-        for part in ("g", "tau"):
-            item = fitted.get(f"{layer.name}.prony[{term}].{part}")
-            if item is not None:
-                yield f"# prony[{term}].{part}: {_interval(item)}"
+def _memory(
+    layer: Layer, fitted: dict[str, Estimate], calibration: Calibration, setting: Setting
+) -> Iterator[str]:
+    terms = [
+        f"prony[{term}].{part}: {_interval(item)}"
+        for term, _ in enumerate(layer.prony)
+        for part in ("g", "tau")
+        if (item := fitted.get(f"{layer.name}.prony[{term}].{part}")) is not None
+    ]
+    yield from ("", "[layer.memory]")
     yield f"prony = [{', '.join(f'[{g:.5g}, {tau:.5g}]' for g, tau in layer.prony)}]"
+    yield from _origin("; ".join(terms), calibration, setting)
 
 
 def _property(
@@ -126,16 +131,20 @@ def _property(
     else:
         yield 'spread = "none"'
     yield f'unit = "{unit}"'
-    source = calibration.problem.measurement.source
-    if item is None:
+    yield from _origin("" if item is None else _interval(item), calibration, setting)
+
+
+def _origin(interval: str, calibration: Calibration, setting: Setting) -> Iterator[str]:
+    """Yield where something is from: the case, or the fit that gave the interval told."""
+    if not interval:
         yield 'status = "chosen"'
         yield 'reason = "not fitted: as the case file has it"'
         yield f"source = {_text(calibration.case.title)}"
         yield 'method = { setting = "choice", technique = "none" }'
         return
     yield 'status = "derived"'
-    yield f"reason = {_text(f'fitted with {calibration.model}; {_interval(item)}')}"
-    yield f"source = {_text(source)}"
+    yield f"reason = {_text(f'fitted with {calibration.model}; {interval}')}"
+    yield f"source = {_text(calibration.problem.measurement.source)}"
     yield f'method = {{ setting = "{setting.value}", technique = "force and displacement of a tool, inverse fit" }}'
 
 

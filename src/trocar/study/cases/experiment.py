@@ -18,6 +18,7 @@ from trocar.model import FloatArray, Load, Support
 from trocar.study.cases import quantity as q
 from trocar.study.cases.tool import Contact, Tool
 from trocar.tissues import Tissue
+from trocar.tissues.key_quantity import MOST_LAYERS
 
 SAME_TIME = 1e-13  # relative: sums of three times carry a few rounding errors of 1e-16 each
 SAME_PLACE = 1e-9  # relative to the side: rounding of unit conversion, far below any mesh or mode
@@ -121,8 +122,8 @@ class Case:
 
     def _check_layers(self) -> None:
         layers = self.tissue.layers
-        if len(layers) > q.MOST_LAYERS:
-            raise InputError("layer", f"at most {q.MOST_LAYERS} layers", len(layers))
+        if len(layers) > MOST_LAYERS:
+            raise InputError("layer", f"at most {MOST_LAYERS} layers", len(layers))
         for i, layer in enumerate(layers):
             for item in q.LAYER:
                 item.check(f"layer[{i}].{item.name}", getattr(layer, item.name))

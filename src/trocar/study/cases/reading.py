@@ -17,18 +17,18 @@ from trocar.errors import InputError
 from trocar.model import Support
 from trocar.study.cases import quantity as q
 from trocar.study.cases.experiment import Case, Sampling, case_from_tissue
-from trocar.study.cases.key_table import NOTHING, Table, Words, printable
-from trocar.study.cases.law import LAW_KEYS, read_law, refuse_mixture
 from trocar.study.cases.tool import Contact, Tip, Tool
 from trocar.tissues import Layer, Tissue
-from trocar.tissues.layer import MOST_TERMS
+from trocar.tissues.key_quantity import MOST_LAYERS
+from trocar.tissues.key_table import NOTHING, Table, Words, printable
+from trocar.tissues.law_keys import LAW_KEYS, MEMORY_KEY, read_law, read_prony, refuse_mixture
 
 __all__ = ["Case", "Sampling", "Tool", "case_from_tissue", "load_case"]
 
 MOST_BYTES = 1_000_000  # a case is about a kilobyte
 
 _BLOCK_KEYS = (q.SIDE.key, "support")
-_LAYER_KEYS = ("name", *(item.key for item in q.LAYER), q.PRESTRESS.key, q.PRONY_TIME.key, *LAW_KEYS)
+_LAYER_KEYS = ("name", *(item.key for item in q.LAYER), q.PRESTRESS.key, MEMORY_KEY, *LAW_KEYS)
 _TOOL_KEYS = ("tip", "contact", q.POSITION.key, *(item.key for item in q.TOOL))
 _SAMPLING_KEYS = (q.PERIOD.key, "dynamic")
 _FILE_KEYS = {item.name: item.key for item in (q.SIDE, *q.LAYER, q.PRESTRESS, *q.TOOL, q.POSITION, q.PERIOD)}
@@ -112,7 +112,7 @@ def _parse(file: str, content: bytes) -> dict[str, object]:
 
 def _layers(root: Table) -> tuple[Layer, ...]:
     layers: list[Layer] = []
-    tables = root.tables("layer", q.MOST_LAYERS)
+    tables = root.tables("layer", MOST_LAYERS)
     for table in tables:
         layer = _layer(table)
         if layer.name in (other.name for other in layers):
@@ -132,13 +132,14 @@ def _layer(table: Table) -> Layer:
             raise table.refuse(absent, f"a number beside {present}", NOTHING, "give both or neither")
     numbers = {item.name: table.number(item) for item in q.LAYER}
     prestress_x, prestress_y = table.pair(q.PRESTRESS)
-    prony = table.pairs(q.PRONY_WEIGHT, q.PRONY_TIME, MOST_TERMS)
-    times = [time for _, time in prony]
-    if len(set(times)) < len(times):
-        raise table.refuse(
-            q.PRONY_TIME.key, "every tau once", table.content["prony"], "add the weights of equal times"
-        )
-    return Layer(name=name, prestress_x=prestress_x, prestress_y=prestress_y, prony=prony, law=law, **numbers)
+    return Layer(
+        name=name,
+        prestress_x=prestress_x,
+        prestress_y=prestress_y,
+        prony=read_prony(table),
+        law=law,
+        **numbers,
+    )
 
 
 def _tool(table: Table) -> Tool:

@@ -13,7 +13,6 @@ from trocar import __version__
 from trocar.errors import InputError
 from trocar.study.calibration.calibration import Calibration
 from trocar.study.calibration.identifiability import VAGUE, Estimate
-from trocar.study.cases.key_table import Words
 from trocar.study.report.figures.agreement import MICROMETRE
 from trocar.study.report.figures.calibration import (
     fit_alt,
@@ -28,6 +27,7 @@ from trocar.study.report.page import environment
 from trocar.study.report.picture import Picture
 from trocar.study.report.table import Table, count, percent
 from trocar.study.writing.whole_file import write_whole
+from trocar.tissues.key_table import Words
 from trocar.units import MILLIMETRE
 
 REPORT = "report.html"

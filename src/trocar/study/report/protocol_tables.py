@@ -8,7 +8,7 @@ from trocar.study.protocol import Study
 from trocar.study.report.figures.supports import WORDS
 from trocar.study.report.table import Table, count
 from trocar.tissues.catalogue import record
-from trocar.tissues.record import Property, Status
+from trocar.tissues.record import Statement, Status
 from trocar.units import DEGREE, MILLIMETRE, MILLISECOND
 
 
@@ -93,9 +93,9 @@ def tissue_table(study: Study) -> Table:
     """Return every value of the tissue with its source."""
     tissue = record(study.plan.tissue)
     rows = tuple(
-        (f"{layer.name}: {item.quantity.title}", _value(item), _status(item), f"{item.source}; {item.method}")
+        (f"{layer.name}: {item.title}", _value(item), _status(item), f"{item.source}; {item.method}")
         for layer in tissue.layers
-        for item in layer.properties
+        for item in layer.stated
     )
     return Table(
         caption=f"{tissue.title} (preset “{tissue.name}”): every value, its spread and where it comes from.",
@@ -123,13 +123,15 @@ def _support(study: Study) -> str:
     return WORDS[study.plan.support].replace("\n", " ")
 
 
-def _value(item: Property) -> str:
+def _value(item: Statement) -> str:
     unit = "" if item.unit == "1" else f" {item.unit}"
     spread = f" ({item.spread_text})" if isinstance(item.spread, tuple) else f" {item.spread_text}".rstrip()
     return (
-        f"{item.value:g}{unit}{spread}" if isinstance(item.spread, tuple) else f"{item.value:g}{spread}{unit}"
+        f"{item.value_text}{unit}{spread}"
+        if isinstance(item.spread, tuple)
+        else f"{item.value_text}{spread}{unit}"
     )
 
 
-def _status(item: Property) -> str:
+def _status(item: Statement) -> str:
     return item.status.value.upper() if item.status is Status.REMEMBERED else item.status.value

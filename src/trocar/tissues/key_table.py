@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from math import isfinite
 
 from trocar.errors import InputError
-from trocar.study.cases.quantity import Quantity
+from trocar.tissues.key_quantity import KeyQuantity
 
 MOST_CHARACTERS = 200  # of a title or a name
 
@@ -68,14 +68,14 @@ class Table:
             raise self.refuse(key, expected, NOTHING, "add the key")
         return self.content[key]
 
-    def number(self, quantity: Quantity) -> float:
+    def number(self, quantity: KeyQuantity) -> float:
         """Return one number [SI]."""
         key = quantity.key
         if key not in self.content and quantity.default is not None:
             return quantity.default * quantity.factor
         return self.convert(key, quantity, self.value(key, quantity.expected))
 
-    def pair(self, quantity: Quantity) -> tuple[float, float]:
+    def pair(self, quantity: KeyQuantity) -> tuple[float, float]:
         """Return two numbers [SI]."""
         key = quantity.key
         if key not in self.content and quantity.default is not None:
@@ -88,7 +88,7 @@ class Table:
         first, second = (self.convert(f"{key}[{i}]", quantity, item) for i, item in enumerate(value))
         return first, second
 
-    def pairs(self, first: Quantity, second: Quantity, most: int) -> tuple[tuple[float, float], ...]:
+    def pairs(self, first: KeyQuantity, second: KeyQuantity, most: int) -> tuple[tuple[float, float], ...]:
         """Return a list of pairs [SI], of as many as `most`; none where the key is left out."""
         key = first.key
         expected = f"a list of at most {most} pairs [{first.expected}, {second.expected}]"
@@ -113,6 +113,15 @@ class Table:
             return value
         raise self.refuse(key, expected, value)
 
+    def prose(self, key: str, *, required: bool = True) -> str:
+        """Return a text of any length, without the blanks round it; empty where it may be left out and is."""
+        if not required and key not in self.content:
+            return ""
+        value = self.value(key, "a text")
+        if not isinstance(value, str) or not value.strip():
+            raise self.refuse(key, "a text", value)
+        return value.strip()
+
     def flag(self, key: str, default: bool) -> bool:
         """Return true or false."""
         value = self.content.get(key, default)
@@ -135,9 +144,9 @@ class Table:
         near = get_close_matches(value[:100], words, n=1) if isinstance(value, str) else []
         raise self.refuse(key, expected, value, f'did you mean "{near[0]}"?' if near else "")
 
-    def table(self, key: str) -> Table:
-        """Return the table [key]."""
-        expected = f"a table [{key}]"
+    def table(self, key: str, *, because: str = "") -> Table:
+        """Return the table [key]; a message says because of what it must be there."""
+        expected = f"a table [{key}]{because and f', because {because}'}"
         value = self.value(key, expected)
         if not isinstance(value, dict):
             raise self.refuse(key, expected, value)
@@ -153,14 +162,22 @@ class Table:
             raise self.refuse(key, expected, len(value))
         return tuple(Table(self.file, f"{key}[{i}]", item) for i, item in enumerate(value))
 
-    def convert(self, key: str, quantity: Quantity, value: object) -> float:
+    def convert(self, key: str, quantity: KeyQuantity, value: object) -> float:
         """Return `value` of the file's unit in SI, refusing what is not a possible number."""
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise self.refuse(key, quantity.expected, value)
-        try:
-            number = float(value)
-        except OverflowError:
-            number = float("inf")
-        if not isfinite(number) or not quantity.allows(number):
+        number = finite(value)
+        if number is None or not quantity.allows(number):
             raise self.refuse(key, quantity.expected, value, quantity.advice)
         return number * quantity.factor
+
+
+def finite(value: object) -> float | None:
+    """Return a value as a float where it is a finite number; TOML's integers have no largest one."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    try:
+        number = float(value)
+    except OverflowError:
+        return None
+    return number if isfinite(number) else None
