@@ -68,7 +68,7 @@ def test_servo_refuses_no_rounds():
         CliRunner().invoke(application(), ["bench", "servo", "--rounds", "0"], catch_exceptions=False)
 
 
-@pytest.mark.parametrize("command", ["step", "cost", "servo"])
+@pytest.mark.parametrize("command", ["step", "cost", "servo", "models"])
 def test_help_has_an_example(command):
     assert f"Example: trocar bench {command}" in run("bench", command, "--help")
 

@@ -6,8 +6,8 @@ from io import StringIO
 import pytest
 
 from score_cards import attempt
+from trocar import whole_file
 from trocar.errors import InputError
-from trocar.records import export
 from trocar.records.export import write_export
 from trocar.records.tidy import ABOUT, table
 
@@ -63,7 +63,7 @@ def test_an_export_that_fails_leaves_the_older_one(tmp_path, monkeypatch):
     def full(_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(export.os, "fsync", full)
+    monkeypatch.setattr(whole_file.os, "fsync", full)
     with pytest.raises(OSError, match="No space left"):
         write_export(out, "id,two\n", "id,")
     assert [file.name for file in tmp_path.iterdir()] == ["attempts.csv"]

@@ -79,11 +79,10 @@ def models(
 def _draw(points: list[Point], path: Path) -> None:
     from trocar.study.report.figures.accuracy import accuracy_figure
     from trocar.study.report.figures.style import settings
+    from trocar.whole_file import whole
 
-    partial = path.with_name(f".{path.stem}.partial{path.suffix}")
-    with settings():
-        accuracy_figure(points).savefig(partial, dpi=160)
-    partial.replace(path)
+    with settings(), whole(path) as partial:
+        accuracy_figure(points).savefig(partial, dpi=160, format=path.suffix.removeprefix("."))
 
 
 def _table(case: str, points: list[Point]) -> Table:

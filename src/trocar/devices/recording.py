@@ -24,6 +24,7 @@ from pathlib import Path
 from trocar.contact.instrument import LARGEST_BLOCK, NAMES
 from trocar.devices.device import FARTHEST, LEFT, RIGHT, HandlePose
 from trocar.errors import InputError
+from trocar.whole_file import whole
 
 MARK = "# trocar recording, version "
 VERSION = 1
@@ -86,16 +87,10 @@ def write_recording(path: str | os.PathLike[str], moments: Iterable[Moment]) -> 
             f"out: {place}", "a new file, or an older recording", "another file", "choose another name"
         )
     place.parent.mkdir(parents=True, exist_ok=True)
-    partial = place.with_name(f".{place.name}.partial-{os.getpid()}")
-    try:
+    with whole(place) as partial:
         with partial.open("w", encoding="utf-8", newline="") as stream:
             stream.writelines(_lines(moments))
-            stream.flush()
-            os.fsync(stream.fileno())
         _read(f"out: {place}", partial)
-        partial.replace(place)
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def is_recording(path: Path) -> bool:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 from trocar.errors import InputError
+from trocar.whole_file import write_whole
 
 
 def write_export(out: Path, text: str, beginning: str) -> None:
@@ -24,15 +24,7 @@ def write_export(out: Path, text: str, beginning: str) -> None:
         got = "a folder" if out.is_dir() else "another file"
         raise InputError(f"out: {out}", "a new file, or an older export", got, "choose another name")
     out.parent.mkdir(parents=True, exist_ok=True)
-    partial = out.with_name(f".{out.name}.partial-{os.getpid()}")
-    try:
-        with partial.open("w", encoding="utf-8", newline="") as stream:
-            stream.write(text)
-            stream.flush()
-            os.fsync(stream.fileno())
-        partial.replace(out)
-    finally:
-        partial.unlink(missing_ok=True)
+    write_whole(out, lambda stream: stream.write(text))
 
 
 def _begins(out: Path, beginning: str) -> bool:

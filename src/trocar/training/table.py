@@ -37,11 +37,11 @@ from trocar.simulation import (
     TOUCH_PRESENT,
     TOUCH_TOUCHING,
 )
-from trocar.study.writing.whole_file import write_whole
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.session import Recording, replayed
 from trocar.training.tasks.progress import Progress
 from trocar.training.tasks.task import Task
+from trocar.whole_file import write_whole
 
 _POSE = {
     "handle_x_m": HANDLE,

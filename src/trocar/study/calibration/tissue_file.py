@@ -10,11 +10,11 @@ from trocar.study.calibration.calibration import Calibration
 from trocar.study.calibration.identifiability import Estimate
 from trocar.study.calibration.parameter import of_sheets
 from trocar.study.report.table import percent
-from trocar.study.writing.whole_file import write_whole
 from trocar.tissues.key_table import Words
 from trocar.tissues.layer import Layer
 from trocar.tissues.record import Setting
 from trocar.units import KILOPASCAL, MILLIMETRE
+from trocar.whole_file import write_whole
 
 BEGINNING = "# Written by trocar calibrate"
 SETTINGS = (Setting.IN_VIVO, Setting.EX_VIVO, Setting.MATERIAL)

@@ -26,9 +26,9 @@ from trocar.study.report.figures.style import label, three
 from trocar.study.report.page import environment
 from trocar.study.report.picture import Picture
 from trocar.study.report.table import Table, count, percent
-from trocar.study.writing.whole_file import write_whole
 from trocar.tissues.key_table import Words
 from trocar.units import MILLIMETRE
+from trocar.whole_file import write_whole
 
 REPORT = "report.html"
 _OURS = re.compile(rb'<meta name="generator" content="Trocar ')

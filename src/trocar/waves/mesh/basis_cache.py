@@ -18,7 +18,6 @@ from functools import lru_cache
 from importlib.metadata import version
 from importlib.resources import files
 from pathlib import Path
-from threading import get_ident
 from zipfile import BadZipFile
 
 import numpy as np
@@ -27,6 +26,7 @@ from platformdirs import user_cache_dir
 from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.waves.mesh.solid_mesh import SolidMesh
+from trocar.whole_file import whole
 
 VARIABLE = "TROCAR_DATA"
 LARGEST = 2_000_000_000  # [bytes] of all files together
@@ -90,16 +90,9 @@ class BasisCache:
         if len(content) + 32 > self.largest:
             return
         self.folder.mkdir(parents=True, exist_ok=True)
-        partial = path.with_name(f".{path.name}.partial-{os.getpid()}-{get_ident()}")
-        try:
-            with partial.open("wb") as file:
-                file.write(hashlib.sha256(content).digest())
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            partial.replace(path)
-        finally:
-            partial.unlink(missing_ok=True)
+        with whole(path) as partial, partial.open("wb") as file:
+            file.write(hashlib.sha256(content).digest())
+            file.write(content)
         self._make_room(path)
 
     def _make_room(self, newest: Path) -> None:
