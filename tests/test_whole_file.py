@@ -2,7 +2,7 @@
 
 import pytest
 
-from trocar.whole_file import whole, write_whole
+from trocar.whole_file import write_whole
 
 
 def test_a_file_takes_an_older_ones_place(tmp_path):
@@ -16,10 +16,14 @@ def test_a_file_takes_an_older_ones_place(tmp_path):
 def test_what_fails_leaves_the_older_one_and_nothing_beside_it(tmp_path):
     place = tmp_path / "words.txt"
     place.write_text("old")
-    with pytest.raises(ZeroDivisionError), whole(place) as partial:
-        partial.write_text("half")
+
+    def half(stream):
+        stream.write("half")
         assert place.read_text() == "old"
         raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        write_whole(place, half)
     assert place.read_text() == "old"
     assert [each.name for each in tmp_path.iterdir()] == ["words.txt"]
 
