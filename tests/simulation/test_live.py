@@ -12,7 +12,7 @@ from trocar.tissues.catalogue import tissue
 from trocar.training.tasks.catalogue import TASKS, task
 from trocar.waves.membrane import WaveMembrane
 
-AGREED = 1e-6  # a fit ends where rounding says, to about 1e-7 of a force
+AGREED = 1e-6  # a fit ends where rounding says, to about 1e-7 of a force; processors round differently
 
 
 def test_every_task_is_done_on_a_tissue_whose_coefficients_are_kept():
@@ -24,7 +24,8 @@ def test_what_is_kept_moves_as_what_is_fitted(name):
     """After an edit of a preset this fails: bench/live_fits.py prints the new coefficients."""
     kept = live_model(tissue(name))
     fitted = WaveMembrane.fitted(tissue(name), size=LIVE_SIZE, support=Support.BASE, modes=kept.modes)
-    np.testing.assert_allclose(kept.wave_compliance, fitted.wave_compliance, rtol=AGREED, atol=0)
+    found = fitted.wave_compliance  # of many waves; a press feels their sum, so the largest is the measure
+    np.testing.assert_allclose(kept.wave_compliance, found, rtol=AGREED, atol=AGREED * np.abs(found).max())
     for one, other in zip(kept.stack.sheets, fitted.stack.sheets, strict=True):
         assert one.areal_density == pytest.approx(other.areal_density, rel=AGREED)
         assert one.retardation_time == pytest.approx(other.retardation_time, rel=AGREED)
