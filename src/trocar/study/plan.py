@@ -91,12 +91,15 @@ class Plan:
         return Tool(diameter=self.diameter, position=(a / 2, b / 2), peak=peak, rate=RATE)
 
     def _case(self, title: str, tools: tuple[Tool, ...], support: Support | None = None) -> Case:
+        """Return a case; laws for large strain are for pressing hard, and where sides are clamped nothing relaxes."""
         duration = max(tool.duration for tool in tools)
+        support = support or self.support
+        layers = self.layers.linearised
         return case_from_tissue(
-            tissue=self.layers.linearised,  # laws for large strain are for pressing hard
+            tissue=layers.long_term if support.sides_clamped else layers,
             size=BLOCK,
             tools=tools,
-            support=support or self.support,
+            support=support,
             period=min(PERIOD, duration / 80),
             title=title,
         )

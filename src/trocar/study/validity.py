@@ -7,7 +7,7 @@ right at large strain. Linear waves stand beside the ones that stiffen, so that 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -85,7 +85,7 @@ def validity_map(
         mesh: of the reference; its default where None.
         progress: told the share done, 0 to 1.
     """
-    tissue = replace(tissue, layers=tuple(replace(layer, prony=()) for layer in tissue.layers))
+    tissue = tissue.long_term
     rows = []
     for place, diameter in enumerate(diameters):
         dent = Dent(

@@ -58,6 +58,11 @@ class Tissue:
         return replace(self, layers=tuple(replace(layer, law=LINEAR) for layer in self.layers))
 
     @property
+    def long_term(self) -> Tissue:
+        """The same layers once all that relaxes has relaxed, their Prony series left out."""
+        return replace(self, layers=tuple(replace(layer, prony=()) for layer in self.layers))
+
+    @property
     def layer_names(self) -> tuple[str, ...]:
         """Names of the layers, top first."""
         return tuple(layer.name for layer in self.layers)

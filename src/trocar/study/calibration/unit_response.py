@@ -9,7 +9,6 @@ once for the spline's own shapes and then costs a product. Both agree to 1e-6, a
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -21,7 +20,6 @@ from trocar.study.calibration.probes import Probes
 from trocar.study.cases.experiment import Case
 from trocar.study.models import AnyModel, series_modes
 from trocar.study.rigid import RigidTips
-from trocar.tissues.tissue import Tissue
 from trocar.waves.banded import surface_compliance
 from trocar.waves.polarised import polarised, turned_to_axes
 from trocar.waves.series import Series
@@ -135,12 +133,8 @@ class SpectrumUnits:
     def __call__(self, specimen: Specimen) -> FloatArray:
         """Return the readings under 1 N [m/N], shape (probes,)."""
         k = self._nodes
-        layers = vertical_and_along(_without_memory(specimen.tissue), base_held=True)
+        layers = vertical_and_along(specimen.tissue.long_term, base_held=True)
         found = surface_compliance(layers, Wavenumbers(k, 0.5 * k**2, 0.5 * k**2))
         w, v = (k[:, None] * found[:, :, part, 0] for part in (0, 1))
         read = self._vertical * w.T[self._faces] + self._along * v.T[self._faces]
         return np.asarray((self._signs * read).sum(axis=1), dtype=np.float64)
-
-
-def _without_memory(tissue: Tissue) -> Tissue:
-    return replace(tissue, layers=tuple(replace(layer, prony=()) for layer in tissue.layers))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from trocar import __version__
 from trocar.study.plan import PERIOD, RATE, TAP
 from trocar.study.protocol import Study
@@ -9,6 +11,7 @@ from trocar.study.report.figures.supports import WORDS
 from trocar.study.report.table import Table, count
 from trocar.tissues.catalogue import record
 from trocar.tissues.record import Statement, Status
+from trocar.tissues.tissue import Tissue
 from trocar.units import DEGREE, MILLIMETRE, MILLISECOND
 
 
@@ -81,12 +84,25 @@ def protocol_table(study: Study) -> Table:
             "“static mechanical study”",
             f"quasi-static; besides, a tap of {2 * TAP / MILLISECOND:g} ms with inertia and damping",
         ),
+        *_own_rows(plan.layers),
     )
     return Table(
         caption="The protocol: what the paper says, and what was done here where it leaves something open.",
         head=("", "the paper", "here"),
         rows=rows,
     )
+
+
+def _own_rows(layers: Tissue) -> Iterator[tuple[str, str, str]]:
+    """Yield what must be said of a tissue that remembers, or that has laws for large strain."""
+    if layers.relaxation_times:
+        yield (
+            "memory",
+            "none",
+            "as the layers state it; left out under clamped sides and where it is pressed hard",
+        )
+    if layers.large_deformation:
+        yield "law", "linear", "linear, but where it is pressed hard: there as the layers state it"
 
 
 def tissue_table(study: Study) -> Table:
