@@ -63,7 +63,7 @@ def step(
     _within("--tolerance", tolerance, *_TOLERANCE_RANGE)
     for diameter in diameters_mm or ():
         _within("--diameter-mm", diameter, *_TIP_RANGE_MM)
-    layers = preset(tissue)
+    layers = preset(tissue).linearised
     compiled = compile_steps()
     costs = [
         tick_cost(layers, size=_SIZE, radius=5e-4 * diameter, tolerance=tolerance)
@@ -92,7 +92,7 @@ def cost(
     from trocar.tissues.catalogue import tissue as preset
 
     _within("--diameter-mm", diameter_mm, *_DIAMETER_RANGE_MM)
-    layers = preset(tissue)
+    layers = preset(tissue).linearised
     compiled = compile_steps()
     tool = Press(x=_SIZE[0] / 2, y=_SIZE[1] / 2, radius=5e-4 * diameter_mm, force=0.1)
     dynamic, static = (_DYNAMIC[:1], _STATIC[:1]) if quick else (_DYNAMIC, _STATIC)

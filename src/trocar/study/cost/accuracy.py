@@ -176,7 +176,8 @@ def accuracy_against_cost(
     """Run every model of every case from coarse to fine, and yield each as it is done.
 
     Args:
-        dent: tissue, block and tool; laws are taken as linear, and under large force as they are or neo-Hookean.
+        dent: tissue, block and tool; laws are taken as linear, and under large force as they are or neo-Hookean;
+            what layers remember is left out.
         cases: which.
         models: by name, of `LADDERS`.
         rungs: how many resolutions of each model, the coarsest first; all where None.
@@ -203,12 +204,12 @@ def accuracy_against_cost(
 
 def _trial(name: str, dent: Dent) -> _Trial:
     if name == LARGE:
-        hard = replace(dent, tissue=neo_hookean(dent.tissue))
+        hard = replace(dent, tissue=neo_hookean(dent.tissue.long_term))
         curve = reference_curve(hard)
         return _Trial(
             name=name, dent=hard, load=hard.load(float(curve.force[-1])), answer=curve.deflection[-1]
         )
-    soft = replace(dent, tissue=dent.tissue.linearised)
+    soft = replace(dent, tissue=dent.tissue.linearised.long_term)
     load = soft.load(SMALL)
     reference = FEASolid(soft.tissue, size=soft.size, support=soft.support, around=load, mesh=_REFERENCE)
     answer = _swing(reference, load[0]) if name == DYNAMIC else _depths(reference, soft, load)
