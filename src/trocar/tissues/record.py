@@ -161,16 +161,21 @@ class Property(Stated):
         }
 
 
+class Unmeasured(Stated):
+    """Something stated that is more than a number: it has neither unit nor spread."""
+
+    unit: ClassVar = "1"
+    spread: ClassVar = None
+    spread_text: ClassVar = ""
+
+
 @dataclass(frozen=True, kw_only=True)
-class StatedLaw(Stated):
+class StatedLaw(Unmeasured):
     """A law and where it comes from."""
 
     law: Law
     key: ClassVar = "law"
     title: ClassVar = "law"
-    unit: ClassVar = "1"
-    spread: ClassVar = None
-    spread_text: ClassVar = ""
 
     @property
     def value_text(self) -> str:
@@ -183,15 +188,12 @@ class StatedLaw(Stated):
 
 
 @dataclass(frozen=True, kw_only=True)
-class StatedMemory(Stated):
+class StatedMemory(Unmeasured):
     """A Prony series and where it comes from."""
 
     prony: Prony
     key: ClassVar = "memory"
     title: ClassVar = "memory"
-    unit: ClassVar = "1"
-    spread: ClassVar = None
-    spread_text: ClassVar = ""
 
     @property
     def value_text(self) -> str:
