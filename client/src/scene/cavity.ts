@@ -36,7 +36,8 @@ export function hollow(hello: Hello): { readonly centre: Vector; readonly radius
 
 function makeBed(a: number, b: number, depth: number, radius: number, maps: Maps, shade: ContactShade): Mesh {
   const noise = new Noise(7);
-  const geometry = new RingGeometry(0.1 * Math.min(a, b), radius, ...(bySoftware() ? ([60, 28] as const) : ([120, 56] as const))); // its hole lies under the block
+  const [around, across] = bySoftware() ? [60, 28] : [120, 56]; // pieces
+  const geometry = new RingGeometry(0.1 * Math.min(a, b), radius, around, across); // its hole lies under the block
   const position = geometry.getAttribute("position");
   const uv = geometry.getAttribute("uv");
   for (let i = 0; i < position.count; i++) {
