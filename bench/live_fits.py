@@ -1,9 +1,11 @@
 """Fit the live tissues anew, and print src/trocar/simulation/live_fits.py's table: what to do when a preset changes.
 
-Run: python bench/live_fits.py
+Run: python bench/live_fits.py [TISSUE ...]; those that are kept already if none is named.
 """
 
 from __future__ import annotations
+
+import sys
 
 from trocar.model import Support
 from trocar.simulation.live import LIVE_SIZE
@@ -22,7 +24,7 @@ def number(value: float) -> str:
 
 def main() -> None:
     """Print the table."""
-    for name in FITS:
+    for name in sys.argv[1:] or FITS:
         fit = fitted_stack(tissue(name), size=LIVE_SIZE, support=Support.BASE)
         print(f'    "{name}": Fit(\n        stack=Stack(\n            sheets=(')
         for sheet in fit.stack.sheets:

@@ -1,8 +1,8 @@
 """The forces of both patches' points, within a tick: none penetrated, none pulled that does not hold.
 
 A patch alone is one complementarity problem (`contact.normal`); far from the block's sides its compliance never
-changes, so its factor is kept while the same points press. Near a side the mirror images count, and two patches that
-reach each other within a tick are solved in turns until they agree.
+changes, so its factor is kept while the same points press. Near a side the mirror images count, near a nodule what it
+holds, and two patches that reach each other within a tick are solved in turns until they agree.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from trocar.contact.normal import press
 from trocar.model import FloatArray
 from trocar.simulation.scene import Scene, SceneState
 from trocar.waves.patch import push_each_other
+from trocar.waves.springs import stiffen
 
 _TURNS = 100  # of two patches that push each other in, until they agree; seen: 3 to 12
 _AGREED = 1e-12  # of the deepest point
@@ -38,18 +39,33 @@ def press_patches(
             for i in range(points):
                 for k in range(points):
                     own[i, k] += scene.near[t, i, k]
+            if state.springs.near[t]:
+                stiffen(scene.springs, state.springs, t, t, own)
+            state.order[t, -1] = 0
+            state.inside[t] = False
+        elif state.springs.near[t]:
+            state.own[t] = scene.own[t]
+            stiffen(scene.springs, state.springs, t, t, state.own[t])
             state.order[t, -1] = 0
             state.inside[t] = False
         elif not state.inside[t]:
             state.order[t, -1] = 0
             state.inside[t] = True
-    meeting = tools == 2 and pressing[0] != 0.0 and pressing[1] != 0.0 and _near_each_other(scene, state)
+    by_springs = tools == 2 and state.springs.near[0] and state.springs.near[1]
+    meeting = (
+        tools == 2
+        and pressing[0] != 0.0
+        and pressing[1] != 0.0
+        and (by_springs or _near_each_other(scene, state))
+    )
     if not meeting:
         well = True
         for t in range(tools):
             well = (pressing[t] == 0.0 or _press_patch(scene, state, t, state.below)) and well
         return well
     push_each_other(scene.tick, state.tick, 0, 1, state.across)
+    if by_springs:
+        stiffen(scene.springs, state.springs, 0, 1, state.across)
     # Block Gauss-Seidel: W is positive definite, so it converges (Cottle, Pang and Stone 1992, The Linear
     # Complementarity Problem, section 5.3).
     rest = state.rest

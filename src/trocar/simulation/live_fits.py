@@ -54,6 +54,35 @@ FITS: Mapping[str, Fit] = MappingProxyType(
             ),
             error=0.0559923328,
         ),
+        "silicone-pad": Fit(
+            stack=Stack(
+                sheets=(
+                    Sheet(
+                        name="skin",
+                        tension_x=0.0200604024,
+                        tension_y=0.0200604024,
+                        areal_density=0.0112833206,
+                        bending=7.34805973e-06,
+                        damping=0.0,
+                        retardation_time=0.000169765273,
+                    ),
+                    Sheet(
+                        name="body",
+                        tension_x=4.87544079,
+                        tension_y=4.87544079,
+                        areal_density=11.2833206,
+                        bending=5.97805627e-05,
+                        damping=0.0,
+                        retardation_time=0.000437936,
+                    ),
+                ),
+                couplings=(
+                    Coupling(stiffness=95486570.1, retardation_time=0.00152788745),
+                    Coupling(stiffness=884146.653, retardation_time=0.00055506495),
+                ),
+            ),
+            error=0.0358648447,
+        ),
     }
 )
 """By preset, for `LIVE_SIZE` on a held base."""

@@ -5,6 +5,7 @@ A scene holds parameters only, as arrays and scalars that compiled code and anot
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from math import pi
 from typing import NamedTuple, Protocol
@@ -15,10 +16,13 @@ from trocar.contact.instrument import Instrument
 from trocar.contact.tips import TIPS
 from trocar.errors import InputError
 from trocar.model import FloatArray, Press, Profile, Support
+from trocar.tissues.nodule import Nodule
 from trocar.tissues.tissue import Tissue
 from trocar.waves.cutoff import measured_cutoff
 from trocar.waves.near_field import SMOOTH, near_field
+from trocar.waves.nodules import springs_under
 from trocar.waves.solid import WaveSolid
+from trocar.waves.springs import Springs, SpringState, springs_at_rest
 from trocar.waves.tick import LiveWaves, Tick, TickState, make_tick
 from trocar.waves.tick import at_rest as tissue_at_rest
 
@@ -58,6 +62,7 @@ class Scene(NamedTuple):
         dt: length of a tick [s].
         modes: M, N of `amplitudes`.
         layers: of the tissue.
+        springs: what nodules in it are to the waves.
     """
 
     tick: Tick
@@ -73,6 +78,7 @@ class Scene(NamedTuple):
     dt: float
     modes: tuple[int, int]
     layers: int
+    springs: Springs
 
 
 class SceneState(NamedTuple):
@@ -98,6 +104,7 @@ class SceneState(NamedTuple):
             shapes (2, 3), (2, 3, 3).
         centre: scratch, shape (3,).
         vectors: scratch, shape (6, 3).
+        springs: of nodules.
     """
 
     tick: TickState
@@ -126,6 +133,7 @@ class SceneState(NamedTuple):
     spreads: FloatArray
     centre: FloatArray
     vectors: FloatArray
+    springs: SpringState
 
 
 def make_scene(
@@ -137,6 +145,7 @@ def make_scene(
     window: float = SMOOTH,
     friction: float = FRICTION,
     tolerance: float = TOLERANCE,
+    nodules: Sequence[Nodule] = (),
 ) -> Scene:
     """Lay out a scene.
 
@@ -148,9 +157,11 @@ def make_scene(
         window: of the waves that move [m].
         friction: coefficient [1].
         tolerance: of what a patch feels, that the modes are chosen for [1].
+        nodules: in the tissue.
 
     Raises:
-        InputError: the sides are clamped, the model's series is too short for the window, or a number is impossible.
+        InputError: the sides are clamped, the model's series is too short for the window, a nodule cannot lie there, or
+            a number is impossible.
     """
     if model.support is not Support.BASE:
         raise InputError(
@@ -190,6 +201,7 @@ def make_scene(
         dt=dt,
         modes=tick.shape[2:],
         layers=tick.shape[1],
+        springs=springs_under(nodules, model, tissue, tick, window=window),
     )
 
 
@@ -224,6 +236,7 @@ def at_rest(scene: Scene) -> SceneState:
         spreads=np.zeros((tools, 3, 3)),
         centre=np.zeros(3),
         vectors=np.zeros((6, 3)),
+        springs=springs_at_rest(scene.springs, tools, each),
     )
 
 

@@ -5,7 +5,8 @@ In this order, for both instruments at once:
 1. The port's lever puts the tips (`contact.port`); a tip's ellipsoid has a lowest point (`contact.tips`), whose motion
    over the surface meets friction (`contact.friction`). The patch stands on the rest place of what lies under it: the
    surface there has moved by give times what drags it along, friction and the slopes under the tip.
-2. The tissue goes on under the forces held so far, and is read at the patches (`waves.patch`).
+2. The tissue goes on under the forces held so far, and is read at the patches (`waves.patch`); nodules hold on to it
+   (`waves.springs`).
 3. Points of the tips' undersides press where they would lie below the surface: force held over the tick, no
    penetration at its end (`contact.normal`), with the near field. Points that hold may pull.
 4. Slopes push aside, friction keeps to the new normal force; the forces on the tips come to the hands by the lever.
@@ -26,6 +27,7 @@ from trocar.model import FloatArray
 from trocar.simulation.equilibrium import press_patches
 from trocar.simulation.scene import Scene, SceneState
 from trocar.waves.patch import go_on, hold, let_go, place_patch, read_layers, read_patches
+from trocar.waves.springs import feel_points, feel_waves, hold_springs, lie_deeper
 
 # Columns of an instrument's pose, shape (2, POSE): left, right.
 PRESENT, HANDLE, ROLL, JAW, POSE = 0, 1, 4, 5, 6
@@ -75,8 +77,12 @@ def advance(
     for t in range(tools):
         wanted[t] = 1.0 if _put(scene, state, poses, records, t) else 0.0
     go_on(scene.tick, state.tick)
+    feel_waves(scene.springs, state.springs, state.tick)
     if wanted[0] + wanted[1] != 0.0:
         read_patches(scene.tick, state.tick, state.sunk)
+        for t in range(tools):
+            if wanted[t] != 0.0:
+                lie_deeper(scene.springs, state.springs, t, state.sunk[t])
     pressed, well = False, True
     for t in range(tools):
         pressing[t] = 0.0
@@ -113,6 +119,8 @@ def advance(
         hold(scene.tick, state.tick, state.forces.reshape(tools, points))
     else:
         let_go(state.tick)
+    if well:
+        hold_springs(scene.springs, state.springs, state.tick, state.forces)
     return well
 
 
@@ -186,6 +194,7 @@ def _put(
     y = low[1] - scene.give[t] * state.drag[t, 1]
     record[PLACE], record[PLACE + 1] = x, y
     place_patch(scene.tick, state.tick, t, x, y)
+    feel_points(scene.springs, state.springs, scene.tick, t, x, y)
     middle = state.middles[t]
     for i in range(points):
         for k in range(points):

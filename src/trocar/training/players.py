@@ -21,9 +21,11 @@ from trocar.devices.unsteadiness import Tremor
 from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.simulation import HANDLE, JAW, POSE, PRESENT
+from trocar.training.palpation import Palpation
 from trocar.training.tasks.moment import Moment
 from trocar.training.tasks.progress import Progress
-from trocar.training.tasks.step import Follow, LetGo, Lift, Press, Step, Together
+from trocar.training.tasks.step import Find, Follow, LetGo, Lift, Press, Step, Together
+from trocar.training.wish import Wish
 
 _ABOVE = 4e-3  # [m] over the tissue, where a hand goes from mark to mark
 _GAIN = 0.1  # [m/(N s)] by which a hand corrects its depth: on skin it is there in a tenth of a second
@@ -64,6 +66,8 @@ class Habits:
         force_error: of the force first pressed with and the height first raised to, relative.
         patience: until an aim, a force or a height is corrected [s].
         tremor: of the handle, root mean square [m].
+        feels_every: distance of the places it feels when it looks for something [m].
+        feels_again: whether it feels more closely around the best of them.
     """
 
     speed: float
@@ -74,6 +78,8 @@ class Habits:
     force_error: float
     patience: float
     tremor: float
+    feels_every: float
+    feels_again: bool
 
 
 HABITS = {
@@ -86,6 +92,8 @@ HABITS = {
         force_error=0.05,
         patience=0.2,
         tremor=2e-5,
+        feels_every=10e-3,
+        feels_again=True,
     ),
     Skill.NOVICE: Habits(
         speed=0.014,
@@ -96,6 +104,8 @@ HABITS = {
         force_error=1.2,
         patience=1.0,
         tremor=6e-5,
+        feels_every=15e-3,
+        feels_again=False,
     ),
 }
 
@@ -127,6 +137,8 @@ class ScriptedPlayer:
         if seed < 0:
             raise InputError("player: seed", "a whole number, 0 or above", seed)
         habits = HABITS[skill]
+        self._habits = habits
+        self._search: tuple[Find, Palpation] | None = None
         self._hands = tuple(
             _Hand(
                 hand,
@@ -141,32 +153,31 @@ class ScriptedPlayer:
 
     def poses(self, moment: Moment, progress: Progress, /) -> FloatArray:
         """Return both poses for the next tick, having seen the last; shape (2, POSE)."""
-        wanted = _wishes(progress.step)
+        step = progress.step
+        wanted = self._searched(step).wishes(moment) if isinstance(step, Find) else _wishes(step)
         return np.stack([hand.pose(moment, wanted.get(hand.number)) for hand in self._hands])
 
-
-@dataclass(frozen=True, kw_only=True)
-class _Wish:
-    """What a step asks of one hand: a place, a force, and how high to hold what it holds."""
-
-    place: tuple[float, float]
-    force: float
-    aim: object  # what the aim is renewed for
-    slide: bool = False
-    height: float | None = None
+    def _searched(self, step: Find) -> Palpation:
+        if self._search is None or self._search[0] is not step:
+            habits = self._habits
+            self._search = (
+                step,
+                Palpation(step, spacing=habits.feels_every, careful=habits.feels_again),
+            )
+        return self._search[1]
 
 
-def _wishes(step: Step | None) -> dict[int, _Wish]:
+def _wishes(step: Step | None) -> dict[int, Wish]:
     if isinstance(step, Together):
         return _wishes(step.base) | _wishes(step.step)
     if isinstance(step, Press):
-        return {step.hand: _Wish(place=step.place, force=0.5 * (step.least + step.most), aim=step.place)}
+        return {step.hand: Wish(place=step.place, force=0.5 * (step.least + step.most), aim=step.place)}
     if isinstance(step, Follow):
         force = max(0.4 * step.most, 2 * step.least)
-        return {step.hand: _Wish(place=step.curve[step.to], force=force, aim=step.curve, slide=step.to > 0)}
+        return {step.hand: Wish(place=step.curve[step.to], force=force, aim=step.curve, slide=step.to > 0)}
     if isinstance(step, Lift):
         return {
-            step.hand: _Wish(
+            step.hand: Wish(
                 place=step.place, force=0.5 * step.most, aim=step.place, height=1.15 * step.height
             )
         }
@@ -199,7 +210,7 @@ class _Hand:
         self._way: _Way | None = None
         self._missed = False  # the jaw closed on nothing
 
-    def pose(self, moment: Moment, wish: _Wish | None) -> FloatArray:
+    def pose(self, moment: Moment, wish: Wish | None) -> FloatArray:
         time = moment.time
         if wish is None or self._missed or (self._aim is not None and wish.aim != self._aim):
             self._leave(moment)
@@ -216,7 +227,7 @@ class _Hand:
         )
         return pose
 
-    def _begin(self, wish: _Wish, time: float) -> None:
+    def _begin(self, wish: Wish, time: float) -> None:
         """Aim at a mark, more or less well."""
         habits = self._habits
         self._aim, self._since = wish.aim, time
@@ -232,7 +243,7 @@ class _Hand:
         """Return the share of the force or height that is right, which this hand tries at first."""
         return max(_LIGHTEST, 1 + self._habits.force_error * self._rng.uniform(-1, 1))
 
-    def _do(self, moment: Moment, wish: _Wish) -> None:
+    def _do(self, moment: Moment, wish: Wish) -> None:
         if self._way is not None:
             self._tip = self._way.at(moment.time)
             if moment.time < self._way.end:
@@ -255,7 +266,7 @@ class _Hand:
         if wish.height is not None and abs(error) < 0.3 * target:
             self._jaw = 1.0 - self._dt / _CLOSE
 
-    def _across(self, wish: _Wish) -> None:
+    def _across(self, wish: Wish) -> None:
         away = np.array(wish.place) + self._miss - self._tip[:2]
         distance = float(np.hypot(*away))
         fastest = (0.11 if wish.slide else 0.15) * self._habits.speed * self._dt

@@ -8,17 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from math import inf, isfinite, nan
 
 import numpy as np
 
+from trocar.contact.instrument import Instrument
 from trocar.contact.tips import largest_sections
 from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.simulation import DT, POSE, RECORD, Scene, advance, at_rest, make_scene, played
 from trocar.simulation.live import live_model
 from trocar.tissues.catalogue import tissue
+from trocar.tissues.nodule import Nodule
 from trocar.tissues.tissue import Tissue
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.metrics.measures import MEASURES, measured
@@ -124,7 +126,12 @@ def _model(name: str) -> WaveMembrane | WaveSolid:
 
 def scene_of(task: Task) -> Scene:
     """Return the scene a task is done in."""
-    return make_scene(_model(task.tissue), tissue(task.tissue), task.instruments)
+    return _scene(task.tissue, task.instruments, task.nodules)
+
+
+@lru_cache(maxsize=8)
+def _scene(name: str, instruments: tuple[Instrument, Instrument], nodules: tuple[Nodule, ...]) -> Scene:
+    return make_scene(_model(name), tissue(name), instruments, nodules=nodules)
 
 
 def perform(
@@ -262,5 +269,6 @@ _REMEDIES = {
     "pressed too hard on the line": ": press less where you move.",
     "left the line": ": go slower where it bends.",
     "worked on tissue that was not held down": ": look at the holding hand's bar before you press.",
+    "took hold where nothing is": ": feel all around before you close the jaw, and compare.",
     "took hold beside the mark": ": go over the mark before you close the jaw.",
 }

@@ -6,6 +6,8 @@ diagonal. Forces act on the last c unknowns (the top face), which leaves the for
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numba import njit
 
@@ -14,12 +16,13 @@ from trocar.model import FloatArray
 from trocar.waves.thin_layer import ThinLayers, Wavenumbers
 
 
-def surface_compliance(layers: ThinLayers, at: Wavenumbers) -> FloatArray:
+def surface_compliance(layers: ThinLayers, at: Wavenumbers, nodes: Sequence[int] | None = None) -> FloatArray:
     """Return the amplitude of every face per unit amplitude of traction on the top face [m/Pa].
 
     Args:
         layers: matrices through the thickness, c components a node.
         at: J wavenumbers.
+        nodes: numbers, from the base up, of those to be told instead of the layers' upper faces.
 
     Returns:
         Shape (J, faces, c, c): face, component of displacement, component of traction.
@@ -30,7 +33,7 @@ def surface_compliance(layers: ThinLayers, at: Wavenumbers) -> FloatArray:
     constant, linear, quadratic, taut_x, taut_y = (
         _banded(part, layers.components) for part in _parts(layers)
     )
-    faces = np.array(layers.faces)
+    faces = np.array(layers.faces if nodes is None else nodes)
     result = np.empty((len(at.k), len(faces), layers.components, layers.components))
     if not _solve(constant, linear, quadratic, taut_x, taut_y, at.k, at.kx2, at.ky2, faces, result):
         raise SolverError(

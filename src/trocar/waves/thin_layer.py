@@ -116,7 +116,12 @@ class ThinLayers:
 
 
 def vertical_and_along(
-    tissue: Tissue, *, base_held: bool, refinement: int = 1, finest: float = inf
+    tissue: Tissue,
+    *,
+    base_held: bool,
+    refinement: int = 1,
+    finest: float = inf,
+    lengths: list[FloatArray] | None = None,
 ) -> ThinLayers:
     """Assemble the matrices of W and V (components 0 and 1).
 
@@ -125,14 +130,17 @@ def vertical_and_along(
         base_held: whether the lower face cannot move.
         refinement: every element is cut into this many.
         finest: length of the first element, at most [m]; for waves shorter than a tool makes.
+        lengths: the elements' of each layer, top down [m], in place of `element_lengths`.
     """
-    lengths = element_lengths(tissue, finest)
+    lengths = lengths or element_lengths(tissue, finest)
     return _assemble(tissue, _element_wv, 2, lengths, base_held=base_held, refinement=refinement)
 
 
-def horizontal_shear(tissue: Tissue, *, base_held: bool, refinement: int = 1) -> ThinLayers:
+def horizontal_shear(
+    tissue: Tissue, *, base_held: bool, refinement: int = 1, lengths: list[FloatArray] | None = None
+) -> ThinLayers:
     """Assemble the matrices of S; arguments as in `vertical_and_along`."""
-    lengths = element_lengths(tissue)
+    lengths = lengths or element_lengths(tissue)
     return _assemble(tissue, _element_s, 1, lengths, base_held=base_held, refinement=refinement)
 
 
@@ -150,6 +158,36 @@ def element_lengths(tissue: Tissue, finest: float = inf) -> list[FloatArray]:
             depth, left = depth + step, left - step
         lengths.append(np.array(own))
     return lengths
+
+
+def profile_of(lengths: list[FloatArray], layers: ThinLayers, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return what reads one component through the thickness, and its slope [1/m].
+
+    Args:
+        lengths: of the elements of each layer, top down [m].
+        layers: assembled of them, base held, no element cut.
+        z: heights, 0 on top [m], shape (q,).
+
+    Returns:
+        Both of shape (q, nodes above the base).
+    """
+    upward = np.concatenate([own[::-1] for own in reversed(lengths)])
+    edges = np.append(0.0, np.cumsum(upward))
+    edges -= edges[-1]
+    element = np.clip(np.searchsorted(edges, z, side="right") - 1, 0, len(upward) - 1)
+    length = upward[element]
+    s = (z - edges[element]) / length
+    value, slope = (np.zeros((len(z), layers.size // layers.components + 1)) for _ in range(2))
+    rows = np.arange(len(z))
+    shapes = (
+        ((1 - s) * (1 - 2 * s), 4 * s - 3),
+        (4 * s * (1 - s), 4 - 8 * s),
+        (s * (2 * s - 1), 4 * s - 1),
+    )
+    for node, (own, steep) in enumerate(shapes):
+        value[rows, 2 * element + node] = own
+        slope[rows, 2 * element + node] = steep / length
+    return value[:, 1:], slope[:, 1:]
 
 
 def _assemble(

@@ -249,7 +249,7 @@ def _sheet(screening: Screening, attempt: int | None) -> FilmSheet:
             {"time_s": one.time, "step": one.step + 1, "words": one.words} for one in shown.progress.mistakes
         ),
         parts=tuple(
-            FilmPart(**asking(screening.task.steps[stage.steps.start]), end_s=stage.end)
+            FilmPart(**asking(screening.task.steps[stage.steps.start], hidden=True), end_s=stage.end)
             for stage in stages_of(shown.attempt, shown.progress)
         ),
         hello=screening.stage.hello(by_page=False),

@@ -26,6 +26,7 @@ from trocar.simulation.live import LIVE_MODELS, LIVE_SIZE, live_model
 from trocar.simulation.surface import Surface
 from trocar.study.linear_range import linear_range
 from trocar.tissues.catalogue import tissue as preset
+from trocar.tissues.nodule import Nodule
 from trocar.tissues.tissue import Tissue
 from trocar.training.tasks.task import Task
 from trocar.waves.solid import WaveSolid
@@ -48,6 +49,7 @@ class Stage:
         instruments: left and right.
         linear_force: up to this force the tissue's answer is trusted as linear [N].
         grid: nodes of the surface along x and y.
+        nodules: in the tissue.
     """
 
     tissue: Tissue
@@ -56,6 +58,7 @@ class Stage:
     scene: Scene = field(repr=False)
     instruments: tuple[Instrument, Instrument]
     linear_force: float
+    nodules: tuple[Nodule, ...] = ()
     grid: tuple[int, int] = GRID
 
     @cached_property
@@ -67,6 +70,7 @@ class Stage:
         return (
             self.tissue == preset(task.tissue)
             and self.instruments == task.instruments
+            and self.nodules == task.nodules
             and (self.model, self.size) == (LIVE_MODELS[0], LIVE_SIZE)
         )
 
@@ -151,6 +155,7 @@ def set_stage(
     ports: str = "usual",
     model: str = LIVE_MODELS[0],
     size: tuple[float, float] = LIVE_SIZE,
+    nodules: tuple[Nodule, ...] = (),
 ) -> Stage:
     """Make a stage of names.
 
@@ -159,6 +164,7 @@ def set_stage(
         ports: name of a port set, or a file (`contact.port_sets`).
         model: one of `LIVE_MODELS`.
         size: sides of the block [m].
+        nodules: in the tissue.
 
     Raises:
         InputError: something named is not there or does not go together.
@@ -174,20 +180,21 @@ def set_stage(
         tissue=layers,
         model=model,
         size=size,
-        scene=make_scene(live_model(layers, model, size=size), layers, instruments),
+        scene=make_scene(live_model(layers, model, size=size), layers, instruments, nodules=nodules),
         instruments=instruments,
         linear_force=limit,
+        nodules=nodules,
     )
 
 
 @lru_cache(maxsize=8)
-def _stage_through(tissue: str, ports: str) -> Stage:
-    return set_stage(tissue, ports=ports)
+def _stage_through(tissue: str, ports: str, nodules: tuple[Nodule, ...]) -> Stage:
+    return set_stage(tissue, ports=ports, nodules=nodules)
 
 
 def stage_of(task: Task) -> Stage:
     """Return the stage a task is done on."""
-    return _stage_through(task.tissue, task.ports)
+    return _stage_through(task.tissue, task.ports, task.nodules)
 
 
 def _shape(instrument: Instrument) -> InstrumentShape:

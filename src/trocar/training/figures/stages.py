@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from trocar.contact.instrument import NAMES
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.tasks.progress import Progress
-from trocar.training.tasks.step import Follow, LetGo, Lift, Press, Step, Together
+from trocar.training.tasks.step import Find, Follow, LetGo, Lift, Press, Step, Together
 from trocar.training.tasks.task import Task
 
 
@@ -83,5 +83,6 @@ def _words(step: Step) -> str:
         Together: "hold and press",
         Lift: "lift",
         LetGo: "let go",
+        Find: "find and hold",
     }
     return f"{NAMES[step.hands[0]]}: {next((words for kind, words in does.items() if isinstance(step, kind)), 'do')}"

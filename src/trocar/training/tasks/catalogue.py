@@ -8,6 +8,7 @@ from difflib import get_close_matches
 from trocar.errors import InputError
 from trocar.training.tasks.alternate import alternate
 from trocar.training.tasks.bimanual_hold import bimanual_hold
+from trocar.training.tasks.find_nodule import find_nodule
 from trocar.training.tasks.lift import lift
 from trocar.training.tasks.oblique_reach import oblique_reach
 from trocar.training.tasks.palpate import palpate
@@ -23,6 +24,7 @@ TASKS: Mapping[str, Callable[[int], Task]] = {
     "oblique-reach": oblique_reach,
     "lift": lift,
     "alternate": alternate,
+    "find-nodule": find_nodule,
 }
 
 

@@ -11,6 +11,7 @@ from trocar.contact.instrument import Instrument
 from trocar.contact.port_sets import instruments_through
 from trocar.errors import InputError
 from trocar.simulation.live import LIVE_SIZE
+from trocar.tissues.nodule import Nodule
 from trocar.training.score import Marking
 from trocar.training.tasks.step import Step
 
@@ -30,6 +31,7 @@ class Task:
         force_limit: more than this on either tip is a mistake [N].
         marking: how it is marked.
         pass_source: where the pass mark comes from.
+        nodules: in its tissue.
     """
 
     name: str
@@ -42,6 +44,7 @@ class Task:
     force_limit: float
     marking: Marking
     pass_source: str
+    nodules: tuple[Nodule, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.steps:
