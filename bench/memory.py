@@ -113,7 +113,8 @@ def swing() -> None:
     }
     curves = half_sine(models, press)
     print()
-    for name, curve in curves.items():
+    for name in models:
+        curve = curves[name]
         error = np.abs(curve - curves["fea"]).max() / curves["fea"].max()
         peak = f"{1e3 * curve.max():.4f} mm"
         print(
