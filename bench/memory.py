@@ -19,6 +19,7 @@ from time import process_time
 
 import numpy as np
 
+from trocar import tissue
 from trocar.model import Press
 from trocar.reference.fea import FEASolid
 from trocar.study.cases.reading import load_case
@@ -27,7 +28,7 @@ from trocar.study.memory_protocols import creep, hysteresis, relaxation
 from trocar.study.models import COARSE_MESH, MODELS
 from trocar.study.report.figures.memory import memory_figure
 from trocar.study.report.figures.style import settings
-from trocar.tissues import Tissue, tissue
+from trocar.tissues import Tissue
 from trocar.waves.mesh.block import block_mesh, lines_around
 from trocar.waves.mesh.inclusion import with_inclusion
 from trocar.waves.mesh.organ import Liver
