@@ -66,7 +66,7 @@ class Reduced:
     def amplitudes(self, state: FloatArray, forces: FloatArray) -> FloatArray:
         """Return q of a state under forces of the presses [N], shape (n,)."""
         if not self.massless:
-            return self.oscillators.read(state)[0]
+            return np.asarray(self.oscillators.read(state)[0], dtype=np.float64)
         pushed = self.inputs(forces)
         late = self.oscillators.read(state - self.oscillators.equilibrium(pushed))[0]
         return np.asarray(np.linalg.solve(self.stiffness, pushed[0]) + late)
