@@ -1,12 +1,13 @@
 """Waves that remember beside finite elements that do: creep, relaxation and hysteresis of examples/creep.toml.
 
-    python bench/memory.py [--figure docs/_static/memory.png]
+    python bench/memory.py [--figure docs/_static/memory.png] [--organ]
 
 Every layer has a Prony series of its own. The models are those of `compare`, without inertia, under the case's tool;
 finite elements on their default mesh. Errors are relative to theirs, the largest at any time; a loop's error is that of
 the energy lost. "two steps" is how far one step differs from two of half the length, "poles" the nearest to the
-imaginary axis and the farthest [1/s], of the moving waves of `WaveSolid`; none may be to the right of it. The last
-line is the swing under a half sine of 20 ms, with inertia, where series relax within milliseconds too.
+imaginary axis and the farthest [1/s], of the moving waves of `WaveSolid`; none may be to the right of it. The
+line after it is the swing under a half sine of 20 ms, with inertia, where series relax within milliseconds too. With
+`--organ` follows what memory costs `WaveMesh`, in a liver with a nodule whose series is another.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from time import process_time
 
 import numpy as np
 
+from trocar import tissue
 from trocar.model import Press
 from trocar.reference.fea import FEASolid
 from trocar.study.cases.reading import load_case
@@ -27,12 +29,17 @@ from trocar.study.models import COARSE_MESH, MODELS
 from trocar.study.report.figures.memory import memory_figure
 from trocar.study.report.figures.style import settings
 from trocar.tissues import Tissue
+from trocar.waves.mesh.block import block_mesh, lines_around
+from trocar.waves.mesh.inclusion import with_inclusion
+from trocar.waves.mesh.organ import Liver
+from trocar.waves.mesh.wave_mesh import WaveMesh
 from trocar.waves.solid import WaveSolid
 
 CASE = Path(__file__).parents[1] / "examples" / "creep.toml"
 DEPTH = 1e-4  # [m] held
 FIRST, LAST = 0.01, 300.0  # [s] a fifth of the shortest relaxation time, five times the longest
 RATES = (0.5, 0.05, 0.005)  # [N/s]
+STEPS = 1000
 SHOWN = (0.0, 0.08, 0.96, 10.0, 60.0, 300.0)  # [s]
 
 
@@ -40,7 +47,7 @@ def protocols(figure: Path | None) -> None:
     """Print creep, relaxation and hysteresis."""
     case = load_case(CASE)
     press = case.tools[0].press(case.tools[0].peak)
-    names = ("fea", "wave-solid", "wave-membrane")
+    names = ("fea", "wave-solid", "wave-membrane", "wave-mesh")
     creeps, relaxations, loops, spent = {}, {}, {}, {}
     for name in names:
         began = process_time()
@@ -68,8 +75,9 @@ def protocols(figure: Path | None) -> None:
         cells = " | ".join(f"{100 * own[rate].share_lost:.2f} %" for rate in RATES)
         print(f"| {name} | {cells} | {100 * error:.2f} % | {spent[name]:.1f} |")
     if figure is not None:
+        drawn = [{name: of[name] for name in names[:3]} for of in (creeps, relaxations, loops)]
         with settings():
-            memory_figure(creeps, relaxations, loops).savefig(figure, dpi=160)
+            memory_figure(*drawn).savefig(figure, dpi=160)
         print(f"\n{figure}: {figure.stat().st_size / 1000:.0f} kB")
 
 
@@ -94,28 +102,74 @@ def exactness() -> None:
 
 def swing() -> None:
     """Print the half sine."""
-    tissue = load_case(CASE).tissue
+    layers = load_case(CASE).tissue.layers
     quick = (((0.5, 0.002), (1.0, 5.0)), ((0.8, 0.01),), ((1.0, 0.005), (0.4, 60.0)))
-    fast = Tissue(layers=tuple(replace(a, prony=b) for a, b in zip(tissue.layers, quick, strict=True)))
+    fast = Tissue(layers=tuple(replace(a, prony=b) for a, b in zip(layers, quick, strict=True)))
     press = Press(x=0.03, y=0.03, radius=0.004, force=0.1)
+    size = (0.06, 0.06)
     models = {
-        "fea": FEASolid(fast, size=(0.06, 0.06), support="base", around=(press,), mesh=COARSE_MESH),
-        "wave-solid": WaveSolid(fast, size=(0.06, 0.06), modes=(64, 64)),
+        "fea": FEASolid(fast, size=size, support="base", around=(press,), mesh=COARSE_MESH),
+        "wave-solid": WaveSolid(fast, size=size, modes=(64, 64)),
+        "wave-mesh": WaveMesh(block_mesh(fast, lines_around(fast, size, (press,)))),
     }
     curves = half_sine(models, press)
-    error = np.abs(curves["wave-solid"] - curves["fea"]).max() / curves["fea"].max()
-    peaks = ", ".join(f"{name} {1e3 * curves[name].max():.4f} mm" for name in models)
-    print(f"\nhalf sine of 20 ms: peak {peaks}; largest difference {100 * error:.2f} % of the peak")
+    print()
+    for name in models:
+        curve = curves[name]
+        error = np.abs(curve - curves["fea"]).max() / curves["fea"].max()
+        peak = f"{1e3 * curve.max():.4f} mm"
+        print(
+            f"half sine of 20 ms: {name} peaks at {peak}, differs by {100 * error:.2f} % of the peak at most"
+        )
+
+
+def organ() -> None:
+    """Print what memory costs an organ of two series."""
+    liver = tissue("liver").layers[-1]
+    solid = with_inclusion(
+        Liver().mesh(liver, spacing=0.016),
+        centre=(0.12, 0.06, -0.03),
+        radii=(0.015, 0.015, 0.015),
+        layer=replace(liver, name="nodule", young_modulus=10 * liver.young_modulus),
+    )
+    series = {
+        "none": ((), ()),
+        "one of three times": (((0.5, 0.05), (0.4, 1.0), (0.3, 20.0)),) * 2,
+        "two of three times": (((0.5, 0.05), (0.4, 1.0), (0.3, 20.0)), ((0.8, 0.05), (0.2, 20.0))),
+    }
+    press = Press(x=0.12, y=0.045, radius=4e-3, force=0.2)
+    print("\n| series | unknowns | modes, s | a press, s | blocks | a step, us |\n|" + "---|" * 6)
+    for name, own in series.items():
+        materials = tuple(replace(one, prony=terms) for one, terms in zip(solid.materials, own, strict=True))
+        model = WaveMesh(replace(solid, materials=materials))
+        marks = [process_time()]
+        _ = model.frequencies
+        marks.append(process_time())
+        state = model.static((press,))
+        marks.append(process_time())
+        for _ in range(STEPS):
+            state = model.step(state, (press,), (press,), 1e-3)
+        marks.append(process_time())
+        modes, pressed, stepped = np.diff(marks)
+        blocks = state.oscillators[0].shape[1]
+        print(
+            f"| {name} | {model.dofs} | {modes:.1f} | {pressed:.1f} | {blocks} | "
+            f"{1e6 * stepped / STEPS:.0f} |",
+            flush=True,
+        )
 
 
 def main() -> None:
     """Print the tables; draw the figure where asked."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--figure", type=Path, default=None, help="a file to draw the protocols into")
+    parser.add_argument("--organ", action="store_true", help="also what memory costs an organ")
     arguments = parser.parse_args()
     protocols(arguments.figure)
     exactness()
     swing()
+    if arguments.organ:
+        organ()
 
 
 if __name__ == "__main__":

@@ -23,7 +23,12 @@ if TYPE_CHECKING:  # the same names for type checkers and editors
     from trocar.tissues.layer import Layer as Layer
     from trocar.tissues.tissue import Tissue as Tissue
     from trocar.waves.membrane import WaveMembrane as WaveMembrane
+    from trocar.waves.mesh.basis_cache import BasisCache as BasisCache
+    from trocar.waves.mesh.inclusion import with_inclusion as with_inclusion
+    from trocar.waves.mesh.layered import layered_mesh as layered_mesh
+    from trocar.waves.mesh.organ import Liver as Liver
     from trocar.waves.mesh.solid_mesh import SolidMesh as SolidMesh
+    from trocar.waves.mesh.thickness_map import thickness_map as thickness_map
     from trocar.waves.mesh.wave_mesh import WaveMesh as WaveMesh
     from trocar.waves.solid import WaveSolid as WaveSolid
     from trocar.waves.stretch.stretching_waves import StretchingWaves as StretchingWaves
@@ -31,9 +36,11 @@ if TYPE_CHECKING:  # the same names for type checkers and editors
 __version__ = "0.1.0"
 
 _HOME = {  # public name: the module it lives in
+    "BasisCache": "trocar.waves.mesh.basis_cache",
     "Cut": "trocar.reference.mesh_free.cut",
     "FEASolid": "trocar.reference.fea",
     "Layer": "trocar.tissues.layer",
+    "Liver": "trocar.waves.mesh.organ",
     "MassSpring": "trocar.reference.springs.mass_spring",
     "MeshFree": "trocar.reference.mesh_free.mesh_free",
     "Press": "trocar.model",
@@ -45,8 +52,11 @@ _HOME = {  # public name: the module it lives in
     "WaveMesh": "trocar.waves.mesh.wave_mesh",
     "WaveSolid": "trocar.waves.solid",
     "compare": "trocar.study.compare",
+    "layered_mesh": "trocar.waves.mesh.layered",
     "load_case": "trocar.study.cases.reading",
+    "thickness_map": "trocar.waves.mesh.thickness_map",
     "tissue": "trocar.tissues.catalogue",
+    "with_inclusion": "trocar.waves.mesh.inclusion",
 }
 
 

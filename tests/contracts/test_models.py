@@ -160,6 +160,24 @@ class TestWaveMesh(TissueModelContract):
         return WaveMesh(block_mesh(three_layers(), lines_around(three_layers(), SIZE, around)), modes=30)
 
 
+class TestRememberingWaveMesh(TestWaveMesh):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        around = (Press(x=0.026, y=0.031, radius=3e-3, force=1.0),)
+        lines = lines_around(remembering(), SIZE, around, coarser=1.5)
+        return WaveMesh(block_mesh(remembering(), lines), modes=12)
+
+
+class TestCreepingWaveMesh(TestWaveMesh):
+    @pytest.fixture(scope="class")
+    @classmethod
+    def model(cls):
+        around = (Press(x=0.026, y=0.031, radius=3e-3, force=1.0),)
+        lines = lines_around(remembering(), SIZE, around, coarser=1.5)
+        return WaveMesh(block_mesh(remembering(), lines), modes=12, massless=True)
+
+
 class TestCreepingFEASolid(TissueModelContract):
     @pytest.fixture(scope="class")
     @classmethod

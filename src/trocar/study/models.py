@@ -76,7 +76,8 @@ def _stiffening(case: Case, linear: WaveMembrane | WaveSolid) -> AnyModel:
 
 def _wave_mesh(case: Case) -> AnyModel:
     lines = lines_around(case.tissue, case.size, case.load_at(0.0), support=case.support)
-    return WaveMesh(block_mesh(case.tissue, lines, support=case.support))
+    mesh = block_mesh(case.tissue, lines, support=case.support)
+    return WaveMesh(mesh, massless=not case.sampling.dynamic)
 
 
 def series_modes(case: Case) -> tuple[int, int]:

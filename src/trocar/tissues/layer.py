@@ -10,6 +10,7 @@ beside a Kelvin-Voigt damping C = tau K. A prestress neither relaxes nor damps.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import inf, isfinite, pi
 
@@ -141,3 +142,24 @@ class Layer:
     def retardation_time(self) -> float:
         """Kelvin-Voigt time tau = loss_factor / (2 pi loss_frequency) [s]: damping C = tau K."""
         return self.loss_factor / (2 * pi * self.loss_frequency)
+
+
+def relaxation_times(layers: Iterable[Layer], what: str) -> tuple[float, ...]:
+    """Return the different times of layers' Prony series, ascending [s]; empty where no layer remembers.
+
+    Args:
+        layers: of one tissue.
+        what: the tissue's name in messages.
+
+    Raises:
+        InputError: there are too many.
+    """
+    times = tuple(sorted({time for layer in layers for weight, time in layer.prony if weight > 0}))
+    if len(times) > MOST_TERMS:
+        raise InputError(
+            f"{what}: prony",
+            f"at most {MOST_TERMS} different times in all layers together",
+            len(times),
+            "let layers share their times",
+        )
+    return times

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from trocar.errors import InputError
 from trocar.tissues.law import LINEAR, Linear
-from trocar.tissues.layer import MOST_TERMS, Layer
+from trocar.tissues.layer import Layer, relaxation_times
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,13 +31,7 @@ class Tissue:
         names = self.layer_names
         if len(set(names)) != len(names):
             raise InputError(f"tissue {self.name!r}: layers", "every name once", names)
-        if len(self.relaxation_times) > MOST_TERMS:
-            raise InputError(
-                f"tissue {self.name!r}: prony",
-                f"at most {MOST_TERMS} different times in all layers together",
-                len(self.relaxation_times),
-                "let layers share their times",
-            )
+        relaxation_times(self.layers, f"tissue {self.name!r}")
         linear = [layer.name for layer in self.layers if isinstance(layer.law, Linear)]
         if 0 < len(linear) < len(self.layers):
             raise InputError(
@@ -75,7 +69,7 @@ class Tissue:
     @property
     def relaxation_times(self) -> tuple[float, ...]:
         """The different times of the layers' Prony series, ascending [s]; empty where no layer remembers."""
-        return tuple(sorted({time for layer in self.layers for weight, time in layer.prony if weight > 0}))
+        return relaxation_times(self.layers, f"tissue {self.name!r}")
 
     def index(self, layer: str | None) -> int:
         """Return the place of a layer by name; None means the top one.

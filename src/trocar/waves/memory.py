@@ -16,6 +16,9 @@ So the slow poles are taken from A^-1 and the fast ones from A, parted where tha
 of the two ends, half the digits that one of them alone would lose. What a force does to a slow pole is found from what
 it holds in place, -A times that, because its own entry is a small difference.
 
+Between its relaxed answer and the sudden one a system is asked at the real s = 1/tau of a few times, where a branch of
+time tau_d resists with the share s tau_d/(1 + s tau_d) of its stiffness.
+
 Without inertia and damping the poles are those of the symmetric tau^(1/2) (1 + b^T b) tau^(1/2): every one real and
 negative, whatever the series (Biot 1954, J Appl Phys 25:1385).
 """
@@ -31,6 +34,8 @@ from trocar.errors import SolverError
 from trocar.model import FloatArray
 from trocar.waves.decouple import Blocks, congruent, paired, split, symmetric
 
+_EVEN = 1e-12  # relative spread of weights that counts as none
+_PLACES = 3  # relaxation times whose answer is kept at most
 _RANK = 1e-13  # eigenvalue of G_d relative to the largest: below it is rounding
 _DIAGONAL = 1e-11  # entry off the diagonal relative to the largest on it: below it is rounding of the modes
 _APART = 1.01  # ratio of two poles between which slow and fast may be parted
@@ -129,6 +134,25 @@ def creeping(stiffness: FloatArray, memory: Memory) -> tuple[FloatArray, FloatAr
     seen = np.swapaxes(modal.branches * root @ vectors, -1, -2)
     to_amplitudes = modal.shapes @ np.swapaxes(seen / times[..., None], -1, -2)
     return 1 / times, seen @ modal.projector, to_amplitudes
+
+
+def alike(weights: FloatArray) -> bool:
+    """Whether all layers have one series, so that shapes stay while they relax; weights g of shape (D, layers)."""
+    spread = np.ptp(weights, axis=1).max(initial=0.0)
+    return bool(spread <= _EVEN * weights.max(initial=0.0))
+
+
+def between(times: FloatArray) -> list[FloatArray]:
+    """Return the share of its stiffness with which each branch resists at 1/tau of a few times, the slowest first.
+
+    Args:
+        times: of the branches, ascending [s], shape (D,).
+
+    Returns:
+        At most three arrays of shape (D,).
+    """
+    few = np.unique(np.linspace(0, len(times) - 1, min(len(times), _PLACES)).round().astype(int))
+    return [times / (times[i] + times) for i in few[::-1]]
 
 
 def _modes(

@@ -20,13 +20,12 @@ import numpy as np
 
 from trocar.model import FloatArray
 from trocar.waves.decouple import symmetric
-from trocar.waves.memory import Memory
+from trocar.waves.memory import Memory, alike, between
 from trocar.waves.oscillators import Oscillators, joined
 from trocar.waves.thin_layer import ThinLayers, Wavenumbers
 
 _CHUNK = 256  # wavenumbers at a time: 256 dense matrices of 60 x 60 are 7 MiB
-_EVEN = 1e-12  # relative spread of retardation times, or of weights, that counts as none
-_PLACES = 3  # relaxation times whose answer is kept at most
+_EVEN = 1e-12  # relative spread of retardation times that counts as none
 
 
 def ritz_oscillators(
@@ -115,19 +114,15 @@ def _creeping(layers: ThinLayers, at: Wavenumbers) -> Oscillators:
 
 def _creeps_unevenly(layers: ThinLayers) -> bool:
     """Whether shapes change while layers relax: they do not where every layer has the same series."""
-    return bool(len(layers.relaxation)) and bool(
-        layers.prestressed or np.ptp(layers.relaxing, axis=1).max() > _EVEN * layers.relaxing.max()
-    )
+    return bool(len(layers.relaxation)) and (layers.prestressed or not alike(layers.relaxing))
 
 
 def _between(layers: ThinLayers, stiffness: FloatArray, branches: FloatArray) -> list[FloatArray]:
     """Return the answers at 1/tau of a few relaxation times, the slowest first, and the sudden one at last."""
-    times = layers.relaxation
-    few = np.unique(np.linspace(0, len(times) - 1, min(len(times), _PLACES)).round().astype(int))
-    weights = [times / (times[i] + times) for i in few[::-1]]  # s tau/(1 + s tau) at s = 1/tau_i
+    sudden = np.ones(len(layers.relaxation))
     return [
-        _pushed(stiffness + np.tensordot(weight, branches, 1), layers.components)
-        for weight in (*weights, np.ones(len(times)))
+        _pushed(stiffness + np.tensordot(share, branches, 1), layers.components)
+        for share in (*between(layers.relaxation), sudden)
     ]
 
 

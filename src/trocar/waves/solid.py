@@ -70,7 +70,7 @@ class WaveSolid:
                 "prony",
                 "no Prony series where sides are clamped, which WaveSolid cannot yet take",
                 self.support.value,
-                'use support "base", or the fitted membrane',
+                'use support "base", WaveMesh or the fitted membrane',
             )
         self.layer_names = tissue.layer_names
         self._series = Series(size, modes)

@@ -135,6 +135,7 @@ def test_the_folder_is_where_the_records_are(monkeypatch, tmp_path):
     [
         {"corners": SMALL.corners * (1 + 1e-15)},
         {"materials": (replace(LAYERS.layers[0], density=1101), *LAYERS.layers[1:])},
+        {"materials": (replace(LAYERS.layers[0], prony=((0.5, 1.0),)), *LAYERS.layers[1:])},
         {"region": np.zeros_like(SMALL.region)},
         {"held": SMALL.held[:1]},
         {"held": (Held(faces=SMALL.held[0].faces, along=(True, False, True)), *SMALL.held[1:])},

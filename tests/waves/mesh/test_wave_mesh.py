@@ -101,10 +101,5 @@ def test_what_is_beside_the_mesh_is_refused():
         model.displacement(model.init(), np.zeros((1, 3)), "bone")
     with pytest.raises(InputError, match="modes: expected 1 to"):
         WaveMesh(BLOCK, modes=0)
-    remembering = replace(
-        BLOCK, materials=(replace(LAYERS.layers[0], prony=((0.5, 1.0),)), *LAYERS.layers[1:])
-    )
-    with pytest.raises(InputError, match="layer 'cover': prony"):
-        WaveMesh(remembering)
     with pytest.raises(InputError, match="a layer's face"):
         block_mesh(LAYERS, (ACROSS, ACROSS, THROUGH[[0, 1, 2, 3, 5]]))

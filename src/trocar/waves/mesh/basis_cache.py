@@ -144,6 +144,7 @@ def _code() -> str:
     seen = hashlib.sha256()
     for package, names in (
         ("trocar.waves.mesh", None),
+        ("trocar.waves", ("memory.py",)),
         ("trocar.tissues", ("layer.py",)),
         ("trocar", ("model.py",)),
     ):

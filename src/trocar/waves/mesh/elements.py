@@ -75,6 +75,10 @@ class Elements:
         """Return the Kelvin-Voigt damping [N s/m]: each material's elastic stiffness times its retardation time."""
         return self._elastic(lambda layer: layer.retardation_time, prestressed=False)
 
+    def remembered(self, time: float) -> sp.csr_array:
+        """Return the stiffness of the branches of a relaxation time [s]: each material's times its weight [N/m]."""
+        return self._elastic(lambda layer: layer.relaxing(time), prestressed=False)
+
     def mass(self) -> sp.csr_array:
         """Return the consistent mass [kg]."""
         basis = Basis(self._skfem, self._element, intorder=_EXACT[self._corners])

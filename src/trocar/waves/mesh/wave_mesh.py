@@ -1,6 +1,6 @@
 """`WaveMesh`: the finite-element modes of any mesh and support, and vectors of each press for those left out.
 
-    M u'' + C u' + K u = f,   C = sum over materials of tau K_material,   u = B q
+    M u'' + C u' + K u + branches = f,   C = sum over materials of tau K_material,   u = B q
 
 The basis B holds the lowest modes, K phi = omega^2 M phi, and for each press of force f the vectors
 
@@ -11,6 +11,11 @@ modes, and with the others the answer to slow forces is right to the second orde
 (Krylov vectors: Bai and Su 2005, SIAM J. Sci. Comput. 26:1692). What moves is then some seventy amplitudes, coupled by
 B^T C B where materials damp differently; their first-order system is decoupled once (`decouple`); its step
 is exact.
+
+Materials with a Prony series add branches, whose states join the amplitudes' (`memory`). Vibration is over before most
+of them have relaxed, so K above is then the sudden stiffness. Where series differ between materials, the answers after
+long and at up to three times between are vectors of each press too: static answers, at once and after long, stay those
+of the whole mesh.
 """
 
 from __future__ import annotations
@@ -25,10 +30,13 @@ import scipy.sparse as sp
 
 from trocar.errors import InputError
 from trocar.model import FloatArray, Load, Press, Support
+from trocar.waves.decouple import symmetric
+from trocar.waves.memory import Memory, between
 from trocar.waves.mesh.assembled import Assembled
 from trocar.waves.mesh.basis_cache import BasisCache, fingerprint
 from trocar.waves.mesh.elements import Elements
 from trocar.waves.mesh.footprint import Approach, footprint_points, turn_to
+from trocar.waves.mesh.reduced import Reduced
 from trocar.waves.mesh.solid_mesh import SolidMesh
 from trocar.waves.oscillators import Oscillators
 from trocar.waves.state import WaveState, require_step
@@ -52,19 +60,6 @@ class MeshState(WaveState):
     presses: tuple[Press, ...] = ()
 
 
-@dataclass(frozen=True, eq=False)
-class _Basis:
-    """The modes and the vectors of some presses.
-
-    Attributes:
-        own: vectors beside the modes [kg^-1/2], of unit mass and upright on them and on each other, (unknowns, k).
-        oscillators: of all amplitudes, one group, from a force of 1 N of each press.
-    """
-
-    own: FloatArray
-    oscillators: Oscillators
-
-
 class WaveMesh:
     """Move a meshed tissue by its lowest modes; a `TissueModel`.
 
@@ -73,10 +68,10 @@ class WaveMesh:
         modes: how many are in the basis.
         approach: along what a tool without tilt comes to a surface that slopes; on a level one there is no difference.
         cache: where modes, and vectors of presses, are looked for and kept; None computes them.
+        massless: leaves inertia and Kelvin-Voigt damping out of `step`: what is left is creep.
 
     Raises:
-        InputError: fewer modes than one, or more than the mesh has; no such approach; a material states a Prony
-            series.
+        InputError: fewer modes than one, or more than the mesh has; no such approach; too many relaxation times.
         SolverError: the mesh is not held, or its modes could not be found.
     """
 
@@ -87,15 +82,8 @@ class WaveMesh:
         modes: int = 60,
         approach: Approach | str = Approach.NORMAL,
         cache: BasisCache | None = None,
+        massless: bool = False,
     ) -> None:
-        for material in mesh.materials:
-            if material.prony:
-                raise InputError(
-                    f"layer {material.name!r}: prony",
-                    "no series in a mesh: WaveMesh does not remember yet",
-                    material.prony,
-                    "take wave-solid, wave-membrane or fea for a block",
-                )
         self.mesh = mesh
         self.elements = Elements(mesh)
         self.matrices = Assembled(self.elements)
@@ -106,6 +94,7 @@ class WaveMesh:
         if approach not in list(Approach):
             raise InputError("approach", f"one of {', '.join(Approach)}", approach)
         self.approach = Approach(approach)
+        self.massless = massless
         self._cache = cache
         self._vectors = lru_cache(maxsize=_REMEMBERED)(self._vectors_of)
         self._basis = lru_cache(maxsize=_REMEMBERED)(self._basis_of)
@@ -149,7 +138,7 @@ class WaveMesh:
 
     @property
     def frequencies(self) -> FloatArray:
-        """Frequencies of the modes that move, without damping [Hz], shape (r,)."""
+        """Frequencies of the modes that move, without damping and as stiff as at once [Hz], shape (r,)."""
         return np.asarray(np.sqrt(self._found[0]) / (2 * np.pi))
 
     def init(self) -> MeshState:
@@ -157,13 +146,14 @@ class WaveMesh:
         return MeshState(0.0, (self._basis(()).oscillators.rest,))
 
     def static(self, load: Load) -> MeshState:
-        """Return the equilibrium under a constant load.
+        """Return the equilibrium under a constant load, held for ever.
 
         Raises:
             InputError: a footprint is not wholly on the surface.
         """
         presses = _units(load)
-        held = self._basis(presses).oscillators.equilibrium(_forces(load, presses))
+        basis = self._basis(presses)
+        held = basis.oscillators.equilibrium(basis.inputs(_forces(load, presses)))
         return MeshState(0.0, (held,), load, presses)
 
     def step(self, state: MeshState, load0: Load, load1: Load, dt: float) -> MeshState:
@@ -181,10 +171,9 @@ class WaveMesh:
         if set(now) - set(presses) or len(presses) > _MOST_PRESSES:
             room = max(0, _MOST_PRESSES - len(now))
             presses = older[len(older) - room :] + now if room < len(older) else older + now
-        amplitudes = self._carried(state, presses)
-        moved = self._basis(presses).oscillators.step(
-            amplitudes, _forces(load0, presses), _forces(load1, presses), dt
-        )
+        basis = self._basis(presses)
+        start, end = (basis.inputs(_forces(load, presses)) for load in (load0, load1))
+        moved = basis.oscillators.step(self._carried(state, presses), start, end, dt)
         return MeshState(state.time + dt, (moved,), load1, presses)
 
     def _carried(self, state: MeshState, presses: tuple[Press, ...]) -> FloatArray:
@@ -192,15 +181,13 @@ class WaveMesh:
         if presses == state.presses:
             return state.oscillators[0]
         old, new = self._basis(state.presses), self._basis(presses)
-        overlap = new.own.T @ (self.matrices.mass @ old.own)
-        values = []
-        for read in (old.oscillators.read, old.oscillators.read_rates):
-            amplitudes = read(state.oscillators[0])[0]
-            values += [amplitudes[: self.modes], overlap @ amplitudes[self.modes :]]
-        return np.asarray(np.einsum("jsia,a->jsi", new.oscillators.entry, np.concatenate(values)))
+        return new.carried(old, state.oscillators[0], new.own.T @ (self.matrices.mass @ old.own))
 
     def oscillators(self, presses: Load) -> Oscillators:
-        """Return what moves while these press: one group, from a force of 1 N of each to all amplitudes."""
+        """Return what moves while these press: one group, from a force of 1 N of each to all amplitudes.
+
+        Without inertia the forces are those on every amplitude.
+        """
         return self._basis(_units(presses)).oscillators
 
     def displacement(self, state: MeshState, points: FloatArray, layer: str | None = None) -> FloatArray:
@@ -219,7 +206,7 @@ class WaveMesh:
     def field(self, state: MeshState) -> FloatArray:
         """Return the displacement of every node [m], shape (3, nodes)."""
         basis = self._basis(state.presses)
-        amplitudes = basis.oscillators.read(state.oscillators[0])[0]
+        amplitudes = basis.amplitudes(state.oscillators[0], _forces(state.load, state.presses))
         total = self._found[1] @ amplitudes[: self.modes] + basis.own @ amplitudes[self.modes :]
         return np.asarray(total.reshape(3, -1))
 
@@ -252,46 +239,68 @@ class WaveMesh:
         return self._kept(lambda: (self._made_vectors(press),), press)[0]
 
     def _made_vectors(self, press: Press) -> FloatArray:
-        found = [self._left_out(self.nodal_forces(press))]
+        forces = self.nodal_forces(press)
         matrices = (
             (self.matrices.mass, self.matrices.damping)
             if self.matrices.damping.count_nonzero()
             else (self.matrices.mass,)
         )
-        new = found
+        new = [self._left_out(forces)]
+        late = self._delayed(forces)
+        found = late[:1] + new + late[1:]
         for _ in range(_GENERATIONS):
             new = [self._left_out(matrix @ vector) for vector in new for matrix in matrices]
             found = found + new
         return np.stack(found, axis=1)
 
-    def _basis_of(self, presses: tuple[Press, ...]) -> _Basis:
+    def _delayed(self, forces: FloatArray) -> list[FloatArray]:
+        """Return what modes leave out of the answers after long and later than at once, where their shapes differ."""
+        if not self.matrices.changes_shape:
+            return []
+        times, found = self.matrices.times, []
+        for shares in (np.zeros(len(times)), *between(times)):
+            vector = self.matrices.delayed_answer(forces, shares)
+            for _ in range(2):
+                vector = vector - self._found[1] @ (self._found[1].T @ (self.matrices.mass @ vector))
+            found.append(vector)
+        return found
+
+    def _basis_of(self, presses: tuple[Press, ...]) -> Reduced:
         squares, shapes = self._found
-        own = np.zeros((len(shapes), 0))
-        for place in range(
-            1 + 2 * (2**_GENERATIONS - 1)
-        ):  # the static vectors first: none of them may be lost
-            for press in presses:
-                vectors = self._vectors(press)
-                if place < vectors.shape[1]:
-                    own = _joined(own, vectors[:, place], self.matrices.mass)
-        count = self.modes + own.shape[1]
-        damping, stiffness = np.zeros((count, count)), np.diag(np.append(squares, np.zeros(own.shape[1])))
-        lossy = self.matrices.damping @ np.concatenate([shapes, own], axis=1)
-        damping[: self.modes] = shapes.T @ lossy
-        damping[self.modes :] = own.T @ lossy
-        beside = own.T @ (self.matrices.stiffness @ own)
-        stiffness[self.modes :, self.modes :] = 0.5 * (beside + beside.T)
-        forces = np.zeros((count, len(presses)))
-        for number, press in enumerate(presses):
-            nodal = self.nodal_forces(press)
-            forces[: self.modes, number], forces[self.modes :, number] = shapes.T @ nodal, own.T @ nodal
-        one = np.eye(count)[None]
-        return _Basis(
-            own, Oscillators.of(one, 0.5 * (damping + damping.T)[None], stiffness[None], forces[None], one)
+        vectors, own = [self._vectors(press) for press in presses], np.zeros((len(shapes), 0))
+        for place in range(max((each.shape[1] for each in vectors), default=0)):
+            for each in vectors:  # what is after long, or at once, of all first: none of it may be lost
+                if place < each.shape[1]:
+                    own = _joined(own, each[:, place], self.matrices.mass)
+        basis = np.concatenate([shapes, own], axis=1)
+        nodal = np.stack([np.zeros(len(shapes)), *(self.nodal_forces(press) for press in presses)])[1:]
+        sudden = np.diag(np.append(squares, np.zeros(own.shape[1])))
+        sudden[self.modes :, self.modes :] = symmetric(own.T @ (self.matrices.sudden @ own))
+        stiffness, memory = self._relaxing(basis, sudden)
+        return Reduced(
+            own,
+            damping=symmetric(basis.T @ (self.matrices.damping @ basis)),
+            stiffness=stiffness,
+            forcing=basis.T @ nodal.T,
+            memory=memory,
+            massless=self.massless,
         )
 
+    def _relaxing(self, basis: FloatArray, sudden: FloatArray) -> tuple[FloatArray, Memory | None]:
+        """Return the long-term stiffness in a basis, and what remembers beside it."""
+        matrices = self.matrices
+        if len(matrices.times) == 0:
+            return sudden, None
+        if matrices.changes_shape:
+            stiffness = symmetric(basis.T @ (matrices.stiffness @ basis))
+            branches = np.array([basis.T @ (branch @ basis) for branch in matrices.branches])
+        else:
+            stiffness = sudden / matrices.stiffening
+            branches = matrices.weights[:, 0, None, None] * stiffness
+        return stiffness, Memory(matrices.times, symmetric(branches)[:, None])
+
     def _left_out(self, forces: FloatArray) -> FloatArray:
-        """Return the static answer of the modes that are not in the basis to nodal forces [N]."""
+        """Return the answer at once of the modes that are not in the basis to nodal forces [N]."""
         squares, shapes = self._found
         return np.asarray(self.matrices.answer(forces) - shapes @ ((shapes.T @ forces) / squares))
 
@@ -302,10 +311,10 @@ def _units(load: Load) -> tuple[Press, ...]:
 
 
 def _forces(load: Load, presses: tuple[Press, ...]) -> FloatArray:
-    """Return the force [N] on each of the presses, shape (1, presses)."""
-    total = np.zeros((1, len(presses)))
+    """Return the force [N] on each of the presses, shape (presses,)."""
+    total = np.zeros(len(presses))
     for press in load:
-        total[0, presses.index(press.with_force(1.0))] += press.force
+        total[presses.index(press.with_force(1.0))] += press.force
     return total
 
 
