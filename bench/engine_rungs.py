@@ -75,13 +75,13 @@ def _boxes(across: int, order: int, dent: Dent) -> Lattice:
 
 def mujoco_rungs() -> Iterator[Rung]:
     """Yield MuJoCo's, coarse to fine."""
-    for order, name, ladder in ((1, "8", (12, 16, 24, 32)), (2, "27", (6, 10, 14, 18))):
+    for order, name, ladder in ((1, "8", (12, 16, 24, 32)), (2, "27", (6, 8, 10, 14, 18))):
         for across in ladder:
             build = partial(_flex, partial(_boxes, across, order))
             yield Rung(
                 engine=f"MuJoCo, {name}-node boxes", setting=f"{across} a side", share=1e-3, build=build
             )
-    for per_radius in (0.75, 1.0, 1.5, 2.0):
+    for per_radius in (1.5, 2.0, 3.0, 4.0, 6.0):
         mesh = partial(_tetrahedra, per_radius)
         words = f"{per_radius:g} a radius"
         yield Rung(engine="MuJoCo, tetrahedra", setting=words, share=1e-3, build=partial(_flex, mesh))
@@ -96,7 +96,7 @@ def mujoco_rungs() -> Iterator[Rung]:
 
 def newton_rungs() -> Iterator[Rung]:
     """Yield Newton's, coarse to fine."""
-    for per_radius, rounds in ((0.75, 10), (0.75, 40), (1.0, 10), (1.0, 40), (1.5, 40)):
+    for per_radius, rounds in ((1.5, 10), (1.5, 40), (2.0, 10), (2.0, 40), (3.0, 40)):
         yield Rung(
             engine=f"Newton, {rounds} rounds",
             setting=f"{per_radius:g} a radius",

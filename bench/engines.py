@@ -17,9 +17,10 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from importlib.util import find_spec
+from math import log
 from pathlib import Path
 
 from engine_rungs import ENGINES, MARKS, Rung
@@ -75,12 +76,28 @@ def tabulate(points: Sequence[Point]) -> str:
     return "\n".join(lines)
 
 
+def orders(points: Sequence[Point]) -> Iterator[str]:
+    """Yield the order of each model's error between its two finest, a length being unknowns to the power -1/3."""
+    for case, model in dict.fromkeys((point.case, point.model) for point in points):
+        own = [
+            (point.error, point.dofs)
+            for point in points
+            if (point.case, point.model) == (case, model) and point.error
+        ]
+        if len(own) > 1 and own[-1][1] > own[-2][1]:
+            (coarse, few), (fine, many) = own[-2:]
+            yield f"{case}, {model}: order {3 * log(coarse / fine) / log(many / few):.1f}"
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Print the tables; draw the figure where asked."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--block", choices=tuple(BLOCKS), default="pad")
+    parser.add_argument(
+        "--poisson", type=float, default=None, help="Poisson's ratio of every layer; default: its own"
+    )
     parser.add_argument("--case", choices=CASES, action="append", help="may be repeated; default: all")
     parser.add_argument("--engines", default=",".join(ENGINES), help="of " + ", ".join(ENGINES))
     parser.add_argument("--figure", type=Path, default=None, help="a file.png, .svg or .pdf")
@@ -99,7 +116,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         )
     if missing == wanted:
         return 2
-    dent = Dent(name=choice.block, tissue=BLOCKS[choice.block])
+    block = BLOCKS[choice.block]
+    if choice.poisson is not None:
+        block = replace(
+            block, layers=tuple(replace(layer, poisson_ratio=choice.poisson) for layer in block.layers)
+        )
+    dent = Dent(name=choice.block, tissue=block)
     rungs = [rung for name in wanted if name not in missing for rung in ENGINES[name]()]
     if choice.quick:
         rungs = [rung for i, rung in enumerate(rungs) if rung.engine not in {one.engine for one in rungs[:i]}]
@@ -119,6 +141,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 0
     print(f"{dent.tissue.name}: held sides move the static answer by {100 * held_sides(dent):.2g} %")
     print(tabulate(points))
+    print("\n".join(orders(points)))
     return 0
 
 
