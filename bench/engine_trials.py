@@ -7,7 +7,7 @@ from math import log2, pi, sin
 from time import process_time
 
 import numpy as np
-from engine_rungs import Engine, Rung
+from engine_rungs import STEP, Engine, Rung
 
 from trocar.errors import SolverError
 from trocar.model import FloatArray, Press, Support
@@ -18,10 +18,9 @@ from trocar.study.half_sine import DURATION, SAMPLE
 from trocar.study.stiffening import Dent
 
 TICK = 1e-3  # [s]
-STEP = 2.5e-4  # [s] of the dynamic case, as finite elements take it
 PARTS = 4  # of the large force
 TIMED = 5  # steps
-LONGEST = 60.0  # [s] a rung may take before its engine's finer ones are left out
+LONGEST = 40.0  # [s] a rung may take before its engine's finer ones are left out
 
 
 def engine_points(trial: Trial, rungs: Sequence[Rung]) -> Iterator[Point]:
@@ -43,18 +42,18 @@ def _point(trial: Trial, rung: Rung) -> Point:
         engine = rung.build(trial.dent)
         set_up = process_time() - began
         if trial.name == DYNAMIC:
-            found, cost = swing(engine, trial.load[0], STEP, rung.share), 1 / STEP
+            found, step = swing(engine, trial.load[0], STEP, rung.share), STEP
             every = round(TICK / SAMPLE)
             error = float(np.abs(found - trial.answer[::every]).max() / np.abs(trial.answer).max())
         else:
-            found, cost = _deflections(engine, trial, rung.share), 1 / TICK
+            found, step = _deflections(engine, trial, rung.share), rung.step
             error = float(np.abs(found / trial.answer - 1).max())
     except SolverError as problem:
         spent = process_time() - began
         return Point(error=None, second_s=0.0, set_up_s=spent, dofs=0, failure=str(problem), **common)
     return Point(
         error=error,
-        second_s=cost * _step_time(engine, trial, 1 / cost, rung.share),
+        second_s=_step_time(engine, trial, step, rung.share) / step,
         set_up_s=set_up,
         dofs=engine.dofs,
         **common,

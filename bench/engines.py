@@ -20,13 +20,14 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from importlib.util import find_spec
+from itertools import chain
 from math import log
 from pathlib import Path
 
 from engine_rungs import ENGINES, MARKS, Rung
 from engine_trials import engine_points, held_sides, steps
 
-from trocar.study.cost.accuracy import CASES, DYNAMIC, Point, accuracy_against_cost, trial_of
+from trocar.study.cost.accuracy import CASES, DYNAMIC, Point, climb, trial_of
 from trocar.study.cost.warm_up import compile_models
 from trocar.study.report.figures.accuracy import accuracy_figure
 from trocar.study.report.figures.style import settings
@@ -35,7 +36,7 @@ from trocar.tissues import Layer, Tissue
 from trocar.tissues.catalogue import tissue
 from trocar.whole_file import whole
 
-OURS = ("wave-membrane", "wave-solid", "fea", "mass-spring")
+OURS, RUNGS = ("wave-solid", "fea"), 5  # the coarsest of each
 UNIT = ("fea", "1 elements a radius")  # whose cost is 1
 
 BLOCKS = {
@@ -150,8 +151,9 @@ def run(dent: Dent, cases: Sequence[str], rungs: Sequence[Rung], *, quick: bool)
     compile_models()
     points = []
     for case in cases:
-        own = accuracy_against_cost(dent, cases=(case,), models=OURS, rungs=2 if quick else None)
-        for point in (*own, *engine_points(trial_of(case, dent), rungs)):
+        trial = trial_of(case, dent)
+        own = (climb(trial, model, rungs=1 if quick else RUNGS) for model in OURS)
+        for point in chain(*own, engine_points(trial, rungs)):
             points.append(point)
             print(
                 f"{point.case}: {point.model}, {point.setting} {point.error} {point.second_s:.3g}",

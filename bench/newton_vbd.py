@@ -17,10 +17,9 @@ from trocar.errors import SolverError
 from trocar.model import FloatArray
 from trocar.tissues import Tissue
 
-_TICK = 1e-3  # [s]
-_TOGETHER, _MOST = 50, 60  # ticks between two looks, looks
+_LOOK, _MOST = 0.02, 25  # [s] between two looks; looks
 _STILL = (
-    2e-4  # of the largest displacement: what may change from look to look; single precision rounds at 1e-5
+    2e-4  # of the largest displacement: what may change from look to look; single precision rounds at 1e-4
 )
 
 
@@ -31,11 +30,13 @@ class NewtonVBD:
         tissue: the layers; prestress is left out.
         mesh: of the whole block.
         rounds: over all nodes in a step.
+        step: on the way to rest [s].
     """
 
-    def __init__(self, tissue: Tissue, mesh: Tetrahedra, *, rounds: int) -> None:
+    def __init__(self, tissue: Tissue, mesh: Tetrahedra, *, rounds: int, step: float) -> None:
         wp.config.quiet = True
         self.mesh = mesh
+        self._step = step
         self.layer_names = tissue.layer_names
         builder = newton.ModelBuilder(gravity=wp.vec3())
         masses = np.where(mesh.held, 0.0, mesh.masses(tissue))
@@ -81,15 +82,15 @@ class NewtonVBD:
         before = self.displacement()
         change = np.inf
         for _ in range(_MOST):
-            for _ in range(_TOGETHER):
-                self.step(forces, _TICK)
+            for _ in range(round(_LOOK / self._step)):
+                self.step(forces, self._step)
             found = self.displacement()
             change = float(np.abs(found - before).max() / np.abs(found).max())
             if change < _STILL:
                 return found
             before = found
         raise SolverError(
-            f"Newton is not at rest after {_TOGETHER * _MOST} ms: the last {_TOGETHER} changed {change:.1g}"
+            f"Newton is not at rest after {_LOOK * _MOST:g} s: the last look saw {change:.1g} of change"
         )
 
     def step(self, forces: FloatArray, dt: float) -> None:

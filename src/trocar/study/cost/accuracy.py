@@ -192,14 +192,29 @@ def accuracy_against_cost(
             if name == LARGE and model in _LINEAR_ONLY:
                 done += 1
                 continue
-            for setting, build in LADDERS[model][:rungs]:
-                watch(f"{name}: {model}, {setting}", done / count)
-                began = process_time()
-                yield _point(trial, model, setting, build)
-                if process_time() - began > _LONGEST:
-                    break
+            share = done / count
+            yield from climb(trial, model, rungs=rungs, watch=lambda what, share=share: watch(what, share))
             done += 1
     watch("done", 1.0)
+
+
+def climb(
+    trial: Trial, model: str, *, rungs: int | None = None, watch: Callable[[str], None] = lambda _what: None
+) -> Iterator[Point]:
+    """Run one model of a case from coarse to fine, and yield each resolution as it is done.
+
+    Args:
+        trial: the case.
+        model: by name, of `LADDERS`.
+        rungs: how many resolutions, the coarsest first; all where None.
+        watch: told what is being done.
+    """
+    for setting, build in LADDERS[model][:rungs]:
+        watch(f"{trial.name}: {model}, {setting}")
+        began = process_time()
+        yield _point(trial, model, setting, build)
+        if process_time() - began > _LONGEST:
+            break
 
 
 def trial_of(name: str, dent: Dent) -> Trial:
