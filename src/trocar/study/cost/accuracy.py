@@ -192,8 +192,7 @@ def accuracy_against_cost(
             if name == LARGE and model in _LINEAR_ONLY:
                 done += 1
                 continue
-            share = done / count
-            yield from climb(trial, model, rungs=rungs, watch=lambda what, share=share: watch(what, share))
+            yield from climb(trial, model, rungs=rungs, watch=partial(_tell, watch, done / count))
             done += 1
     watch("done", 1.0)
 
@@ -215,6 +214,10 @@ def climb(
         yield _point(trial, model, setting, build)
         if process_time() - began > _LONGEST:
             break
+
+
+def _tell(watch: Callable[[str, float], None], share: float, what: str) -> None:
+    watch(what, share)
 
 
 def trial_of(name: str, dent: Dent) -> Trial:
