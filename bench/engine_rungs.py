@@ -10,11 +10,9 @@ from typing import Any, Protocol
 from engine_meshes import Lattice, even, graded
 
 from trocar.model import FloatArray
-from trocar.study.cost.accuracy import CASES, LARGE, STATIC
+from trocar.study.cost.accuracy import CASES, LARGE
 from trocar.study.report.figures.style import BLACK, MODEL_MARKS, ORANGE
 from trocar.study.stiffening import Dent
-
-STEP = 2.5e-4  # [s] of the dynamic case, as finite elements take it
 
 
 class Engine(Protocol):
@@ -45,7 +43,6 @@ class Rung:
         setting: how fine.
         share: of a small force that it is pressed with, so that strains are small and rounding smaller.
         build: makes it of a case's dent.
-        step: of static and large cases [s].
         cases: that it is for.
     """
 
@@ -53,7 +50,6 @@ class Rung:
     setting: str
     share: float
     build: Callable[[Dent], Engine]
-    step: float = 1e-3
     cases: Sequence[str] = CASES
 
 
@@ -63,10 +59,10 @@ def _flex(mesh: Callable[[Dent], Lattice], dent: Dent, **how: Any) -> Engine:
     return MujocoFlex(dent.tissue, mesh(dent), **how)
 
 
-def _descent(mesh: Callable[[Dent], Any], rounds: int, step: float, dent: Dent) -> Engine:
+def _descent(mesh: Callable[[Dent], Any], rounds: int, dent: Dent) -> Engine:
     from newton_vbd import NewtonVBD  # noqa: PLC0415 - only where it is installed
 
-    return NewtonVBD(dent.tissue, mesh(dent), rounds=rounds, step=step)
+    return NewtonVBD(dent.tissue, mesh(dent), rounds=rounds)
 
 
 def _tetrahedra(per_radius: float, dent: Dent) -> Lattice:
@@ -100,15 +96,13 @@ def mujoco_rungs() -> Iterator[Rung]:
 
 def newton_rungs() -> Iterator[Rung]:
     """Yield Newton's, coarse to fine."""
-    for step, rounds, ladder in ((1e-3, 10, (1.5, 2.0)), (2.5e-4, 10, (1.5, 2.0)), (2.5e-4, 40, (1.5,))):
-        for per_radius in ladder:
+    for rounds in (10, 40):
+        for per_radius in (1.5, 2.0):
             yield Rung(
-                engine=f"Newton, {rounds} rounds of {1e3 * step:g} ms",
+                engine=f"Newton, {rounds} rounds",
                 setting=f"{per_radius:g} a radius",
                 share=0.25,
-                build=partial(_descent, partial(_tetrahedra, per_radius), rounds, step),
-                step=step,
-                cases=CASES if step == STEP else (STATIC, LARGE),
+                build=partial(_descent, partial(_tetrahedra, per_radius), rounds),
             )
 
 
@@ -118,7 +112,6 @@ MARKS = MODEL_MARKS | {
     "MuJoCo, 27-node boxes": (">", ORANGE),
     "MuJoCo, tetrahedra": ("P", ORANGE),
     "MuJoCo, neo-Hookean": ("p", ORANGE),
-    "Newton, 10 rounds of 1 ms": ("1", BLACK),
-    "Newton, 10 rounds of 0.25 ms": ("2", BLACK),
-    "Newton, 40 rounds of 0.25 ms": ("3", BLACK),
+    "Newton, 10 rounds": ("1", BLACK),
+    "Newton, 40 rounds": ("2", BLACK),
 }

@@ -7,17 +7,18 @@ from math import log2, pi, sin
 from time import process_time
 
 import numpy as np
-from engine_rungs import STEP, Engine, Rung
+from engine_rungs import Engine, Rung
 
 from trocar.errors import SolverError
 from trocar.model import FloatArray, Press, Support
 from trocar.reference.fea import FEASolid
-from trocar.study.cost.accuracy import DYNAMIC, LARGE, SMALL, Point, Trial, trial_of
+from trocar.study.cost.accuracy import DYNAMIC, LARGE, SMALL, Point, Trial
 from trocar.study.deflection import search_points
 from trocar.study.half_sine import DURATION, SAMPLE
 from trocar.study.stiffening import Dent
 
 TICK = 1e-3  # [s]
+STEP = 2.5e-4  # [s] of the dynamic case, as finite elements take it
 PARTS = 4  # of the large force
 TIMED = 5  # steps
 LONGEST = 40.0  # [s] a rung may take before its engine's finer ones are left out
@@ -46,7 +47,7 @@ def _point(trial: Trial, rung: Rung) -> Point:
             every = round(TICK / SAMPLE)
             error = float(np.abs(found - trial.answer[::every]).max() / np.abs(trial.answer).max())
         else:
-            found, step = _deflections(engine, trial, rung.share), rung.step
+            found, step = _deflections(engine, trial, rung.share), TICK
             error = float(np.abs(found / trial.answer - 1).max())
     except SolverError as problem:
         spent = process_time() - began
@@ -108,9 +109,8 @@ def held_sides(dent: Dent) -> float:
     return float(np.abs(depths[1] / depths[0] - 1).max())
 
 
-def steps(dent: Dent, rung: Rung, counts: Sequence[int] = (1, 2, 4, 8, 16)) -> Iterator[str]:
+def steps(trial: Trial, rung: Rung, counts: Sequence[int] = (1, 2, 4, 8, 16)) -> Iterator[str]:
     """Yield what steps of a millisecond and its parts come to: error, distance from the next shorter, its order."""
-    trial = trial_of(DYNAMIC, dent)
     every, largest = round(TICK / SAMPLE), np.abs(trial.answer).max()
     before, apart = None, None
     yield f"{rung.engine}, {rung.setting}: step, error, from the step before, order"

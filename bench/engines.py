@@ -27,7 +27,7 @@ from pathlib import Path
 from engine_rungs import ENGINES, MARKS, Rung
 from engine_trials import engine_points, held_sides, steps
 
-from trocar.study.cost.accuracy import CASES, DYNAMIC, Point, climb, trial_of
+from trocar.study.cost.accuracy import CASES, DYNAMIC, LARGE, STATIC, Point, climb, trial_of
 from trocar.study.cost.warm_up import compile_models
 from trocar.study.report.figures.accuracy import accuracy_figure
 from trocar.study.report.figures.style import settings
@@ -36,7 +36,8 @@ from trocar.tissues import Layer, Tissue
 from trocar.tissues.catalogue import tissue
 from trocar.whole_file import whole
 
-OURS, RUNGS = ("wave-solid", "fea"), 5  # the coarsest of each
+OURS = ("wave-solid", "fea")
+RUNGS = {STATIC: 5, DYNAMIC: 5, LARGE: 2}  # the coarsest of each
 UNIT = ("fea", "1 elements a radius")  # whose cost is 1
 
 BLOCKS = {
@@ -127,8 +128,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     if choice.quick:
         rungs = [rung for i, rung in enumerate(rungs) if rung.engine not in {one.engine for one in rungs[:i]}]
     if choice.steps:
+        swinging = trial_of(DYNAMIC, dent)
         for name in dict.fromkeys(rung.engine for rung in rungs if DYNAMIC in rung.cases):
-            for line in steps(dent, next(rung for rung in rungs if rung.engine == name)):
+            for line in steps(swinging, next(rung for rung in rungs if rung.engine == name)):
                 print(line, flush=True)
         return 0
     points = run(dent, choice.case or CASES, rungs, quick=choice.quick)
@@ -152,7 +154,7 @@ def run(dent: Dent, cases: Sequence[str], rungs: Sequence[Rung], *, quick: bool)
     points = []
     for case in cases:
         trial = trial_of(case, dent)
-        own = (climb(trial, model, rungs=1 if quick else RUNGS) for model in OURS)
+        own = (climb(trial, model, rungs=1 if quick else RUNGS[case]) for model in OURS)
         for point in chain(*own, engine_points(trial, rungs)):
             points.append(point)
             print(

@@ -17,6 +17,7 @@ from trocar.errors import SolverError
 from trocar.model import FloatArray
 from trocar.tissues import Tissue
 
+_TICK = 1e-3  # [s]
 _LOOK, _MOST = 0.02, 25  # [s] between two looks; looks
 _STILL = (
     2e-4  # of the largest displacement: what may change from look to look; single precision rounds at 1e-4
@@ -30,13 +31,11 @@ class NewtonVBD:
         tissue: the layers; prestress is left out.
         mesh: of the whole block.
         rounds: over all nodes in a step.
-        step: on the way to rest [s].
     """
 
-    def __init__(self, tissue: Tissue, mesh: Tetrahedra, *, rounds: int, step: float) -> None:
+    def __init__(self, tissue: Tissue, mesh: Tetrahedra, *, rounds: int) -> None:
         wp.config.quiet = True
         self.mesh = mesh
-        self._step = step
         self.layer_names = tissue.layer_names
         builder = newton.ModelBuilder(gravity=wp.vec3())
         masses = np.where(mesh.held, 0.0, mesh.masses(tissue))
@@ -82,8 +81,8 @@ class NewtonVBD:
         before = self.displacement()
         change = np.inf
         for _ in range(_MOST):
-            for _ in range(round(_LOOK / self._step)):
-                self.step(forces, self._step)
+            for _ in range(round(_LOOK / _TICK)):
+                self.step(forces, _TICK)
             found = self.displacement()
             change = float(np.abs(found - before).max() / np.abs(found).max())
             if change < _STILL:

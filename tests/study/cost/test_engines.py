@@ -117,7 +117,7 @@ def test_a_swing_is_read_every_millisecond(bench, meshes):
     times = 5e-4 * np.arange(81)
     answer = 2e-3 * np.where(times < 0.02, np.sin(np.pi * times / 0.02), 0.0)
     (found,) = run(bench, DYNAMIC, Sponge(meshes[2], 0.01), answer, force=0.2)
-    late = np.pi * bench["engine_rungs"].STEP / 2 / 0.02  # a step's force is that of its middle
+    late = np.pi * bench["engine_trials"].STEP / 2 / 0.02  # a step's force is that of its middle
     assert found.error == pytest.approx(late, rel=0.01)  # to first order in the step
 
 
