@@ -154,7 +154,7 @@ def run(dent: Dent, cases: Sequence[str], rungs: Sequence[Rung], *, quick: bool)
     points = []
     for case in cases:
         trial = trial_of(case, dent)
-        own = (climb(trial, model, rungs=1 if quick else RUNGS[case]) for model in OURS)
+        own = (climb(trial, model, rungs=2 if quick else RUNGS[case]) for model in OURS)
         for point in chain(*own, engine_points(trial, rungs)):
             points.append(point)
             print(

@@ -34,7 +34,7 @@ class NewtonVBD:
     """
 
     def __init__(self, tissue: Tissue, mesh: Tetrahedra, *, rounds: int) -> None:
-        wp.config.quiet = True
+        wp.config.log_level = wp.LOG_ERROR
         self.mesh = mesh
         self.layer_names = tissue.layer_names
         builder = newton.ModelBuilder(gravity=wp.vec3())
