@@ -19,9 +19,7 @@ from trocar.tissues import Tissue
 
 _TICK = 1e-3  # [s]
 _LOOK, _MOST = 0.02, 25  # [s] between two looks; looks
-_STILL = (
-    2e-4  # of the largest displacement: what may change from look to look; single precision rounds at 1e-4
-)
+_STILL = 5e-4  # of the largest displacement: what may change from look to look; single precision moves 3e-4
 
 
 class NewtonVBD:
