@@ -9,7 +9,8 @@ small strain: they are pressed with a small share of the force, and the answer i
 either: an error is that of the state in which they come to rest, a simulated second is as many steps as it has.
 
 Costs are CPU times over that of finite elements with one element a radius. Needs `trocar[engines]`; without any engine
-it exits 2. Takes about a quarter of an hour; `--quick` takes the coarsest of each.
+it exits 2. A case takes some minutes of processor time, large forces more;
+`--quick` takes the coarsest of each.
 """
 
 from __future__ import annotations
