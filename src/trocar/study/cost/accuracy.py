@@ -149,14 +149,14 @@ _LINEAR_ONLY = ("wave-mesh",)
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Trial:
+class Trial:
     """A case with its answer.
 
     Attributes:
         name: of the case.
         dent: tissue, block and tool.
         load: at its largest.
-        answer: what the reference found: deflection of every layer [m], or the swing [m].
+        answer: what the reference found: deflection of every layer [m], or the swing [m], every `half_sine.SAMPLE`.
     """
 
     name: str
@@ -186,37 +186,61 @@ def accuracy_against_cost(
     done, count = 0, len(cases) * (1 + len(models))
     for name in cases:
         watch(f"{name}: reference", done / count)
-        trial = _trial(name, dent)
+        trial = trial_of(name, dent)
         done += 1
         for model in models:
             if name == LARGE and model in _LINEAR_ONLY:
                 done += 1
                 continue
-            for setting, build in LADDERS[model][:rungs]:
-                watch(f"{name}: {model}, {setting}", done / count)
-                began = process_time()
-                yield _point(trial, model, setting, build)
-                if process_time() - began > _LONGEST:
-                    break
+            yield from climb(trial, model, rungs=rungs, watch=partial(_tell, watch, done / count))
             done += 1
     watch("done", 1.0)
 
 
-def _trial(name: str, dent: Dent) -> _Trial:
+def climb(
+    trial: Trial, model: str, *, rungs: int | None = None, watch: Callable[[str], None] = lambda _what: None
+) -> Iterator[Point]:
+    """Run one model of a case from coarse to fine, and yield each resolution as it is done.
+
+    Args:
+        trial: the case.
+        model: by name, of `LADDERS`.
+        rungs: how many resolutions, the coarsest first; all where None.
+        watch: told what is being done.
+    """
+    for setting, build in LADDERS[model][:rungs]:
+        watch(f"{trial.name}: {model}, {setting}")
+        began = process_time()
+        yield _point(trial, model, setting, build)
+        if process_time() - began > _LONGEST:
+            break
+
+
+def _tell(watch: Callable[[str, float], None], share: float, what: str) -> None:
+    watch(what, share)
+
+
+def trial_of(name: str, dent: Dent) -> Trial:
+    """Return a case of a dent, with the answer of fine finite elements.
+
+    Args:
+        name: "static", "dynamic" or "large force".
+        dent: as of `accuracy_against_cost`.
+    """
     if name == LARGE:
         hard = replace(dent, tissue=neo_hookean(dent.tissue.long_term))
         curve = reference_curve(hard)
-        return _Trial(
+        return Trial(
             name=name, dent=hard, load=hard.load(float(curve.force[-1])), answer=curve.deflection[-1]
         )
     soft = replace(dent, tissue=dent.tissue.linearised.long_term)
     load = soft.load(SMALL)
     reference = FEASolid(soft.tissue, size=soft.size, support=soft.support, around=load, mesh=_REFERENCE)
     answer = _swing(reference, load[0]) if name == DYNAMIC else _depths(reference, soft, load)
-    return _Trial(name=name, dent=soft, load=load, answer=answer)
+    return Trial(name=name, dent=soft, load=load, answer=answer)
 
 
-def _point(trial: _Trial, model: str, setting: str, build: Build) -> Point:
+def _point(trial: Trial, model: str, setting: str, build: Build) -> Point:
     began = process_time()
     try:
         made = build(trial.dent, trial.name != DYNAMIC)
@@ -248,7 +272,7 @@ def _point(trial: _Trial, model: str, setting: str, build: Build) -> Point:
     )
 
 
-def _standing(model: Any, trial: _Trial, began: float) -> tuple[FloatArray, float, float]:
+def _standing(model: Any, trial: Trial, began: float) -> tuple[FloatArray, float, float]:
     """Return every layer's deflection, the time to the first answer and the time of a second's equilibria."""
     (press,) = trial.load
     if trial.name == LARGE:
@@ -265,7 +289,7 @@ def _standing(model: Any, trial: _Trial, began: float) -> tuple[FloatArray, floa
     return _depths(model, trial.dent, trial.load), ready - began, _TICKS * taken / len(others)
 
 
-def _moving(model: Any, trial: _Trial, began: float) -> tuple[FloatArray, float, float]:
+def _moving(model: Any, trial: Trial, began: float) -> tuple[FloatArray, float, float]:
     """Return the swing, the time to the first step's end and the time of a second's steps."""
     (press,) = trial.load
     dt = min(model.longest_step, 1 / _TICKS)

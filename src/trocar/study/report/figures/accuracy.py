@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from matplotlib.figure import Figure
 
@@ -10,16 +10,22 @@ from trocar.study.cost.accuracy import CASES, Point
 from trocar.study.report.figures.style import GREY, MODEL_MARKS, label, sheet, styled, three
 
 _LEAST_ERROR = 1e-4  # smaller ones are the reference's own
+_ONE_ROW = 6  # models in a legend
 
 
 @styled
-def accuracy_figure(points: Sequence[Point]) -> Figure:
-    """Draw CPU time for a simulated second over error, both logarithmic; down and left is better."""
+def accuracy_figure(points: Sequence[Point], marks: Mapping[str, tuple[str, str]] = MODEL_MARKS) -> Figure:
+    """Draw CPU time for a simulated second over error, both logarithmic; down and left is better.
+
+    Args:
+        points: of any models that have a mark.
+        marks: marker and colour of every model, in the legend's order.
+    """
     cases = [case for case in CASES if any(point.case == case for point in points)]
     figure = sheet(3.4)
     panels = figure.subplots(1, len(cases), sharey=True, squeeze=False)[0]
     for panel, case in zip(panels, cases, strict=True):
-        for model, (mark, colour) in MODEL_MARKS.items():
+        for model, (mark, colour) in marks.items():
             line = [
                 (100 * max(point.error, _LEAST_ERROR), point.second_s)
                 for point in points
@@ -37,14 +43,13 @@ def accuracy_figure(points: Sequence[Point]) -> Figure:
         "real time", (0.02, 1.0), (0, 3), xycoords=("axes fraction", "data"), textcoords="offset points",
         fontsize=7, color=GREY,
     )  # fmt: skip
-    shown = [model for model in MODEL_MARKS if any(point.model == model for point in points)]
+    shown = [model for model in marks if any(point.model == model for point in points)]
     handles = [
-        panels[0].plot([], [], color=MODEL_MARKS[model][1], marker=MODEL_MARKS[model][0], label=label(model))[
-            0
-        ]
+        panels[0].plot([], [], color=marks[model][1], marker=marks[model][0], label=label(model))[0]
         for model in shown
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(shown), columnspacing=1.2)
+    columns = len(shown) if len(shown) <= _ONE_ROW else -(-len(shown) // 2)
+    figure.legend(handles=handles, loc="outside lower center", ncols=columns, columnspacing=1.2)
     return figure
 
 
