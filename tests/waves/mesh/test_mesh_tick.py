@@ -9,6 +9,7 @@ import pytest
 from trocar.errors import InputError
 from trocar.model import Press, Profile
 from trocar.tissues import Layer
+from trocar.waves.mesh.block import block_mesh
 from trocar.waves.mesh.mesh_patch import (
     go_on,
     hold,
@@ -24,10 +25,11 @@ from trocar.waves.mesh.press_grid import press_grid
 from trocar.waves.mesh.surface_modes import surface_modes
 from trocar.waves.mesh.wave_mesh import WaveMesh
 from trocar.waves.near_field import half_space, near_field
-from waves.mesh.meshes import BLOCK
+from waves.mesh.meshes import ACROSS, LAYERS, THROUGH
 
 DT, WINDOW = 1e-3, 2.2e-3
-LOSSY = replace(BLOCK, materials=tuple(replace(one, loss_factor=0.3) for one in BLOCK.materials))
+COARSE = block_mesh(LAYERS, (ACROSS[::2], ACROSS[::2], THROUGH), support="base")
+LOSSY = replace(COARSE, materials=tuple(replace(one, loss_factor=0.3) for one in COARSE.materials))
 JELLY = Layer(
     name="liver", thickness=0.03, young_modulus=4.5e3, poisson_ratio=0.48, density=1060, loss_factor=0.4
 )
@@ -54,7 +56,7 @@ def block():
 
 @pytest.fixture(scope="module")
 def organ():
-    return Live(Liver().mesh(JELLY, spacing=0.025), 0.009, 20)
+    return Live(Liver().mesh(JELLY, spacing=0.025), 0.009, 60)
 
 
 def press_at(x, y, window):
@@ -69,7 +71,7 @@ def test_a_press_between_sites_is_that_of_the_mesh_at_rest_and_in_motion(name, x
     load = (press_at(x, y, live.grid.window),)
     nodal, slow = live.model.nodal_forces(load[0]), live.model.init()
     sunk, own, found = np.zeros((1, 1)), np.zeros((1, 1)), []
-    for _ in range(80):
+    for _ in range(30):
         assert place_patch(tick, state, 0, x, y)
         go_on(tick, state)
         read_patches(tick, state, sunk)
@@ -78,7 +80,8 @@ def test_a_press_between_sites_is_that_of_the_mesh_at_rest_and_in_motion(name, x
         slow = live.model.step(slow, load, load, DT)
         found.append((sunk[0, 0] + own[0, 0], nodal @ live.model.field(slow).ravel()))
     ours, theirs = np.array(found).T
-    assert np.abs(ours - theirs).max() < 0.03 * theirs.max()
+    # Both leave out what lies beyond their modes: beside 400 modes WaveMesh is 1.3 % off here, the tick 1.1 %.
+    assert np.abs(ours - theirs).max() < 0.025 * theirs.max()
     sites, weights = state.sites[0, : state.counts[0]], state.weights[0, : state.counts[0], 0]
     static = weights @ live.modes.static[np.ix_(sites, sites)] @ weights
     assert static == pytest.approx(nodal @ live.model.field(live.model.static(load)).ravel(), rel=0.02)

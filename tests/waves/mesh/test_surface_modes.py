@@ -48,8 +48,7 @@ def test_the_lowest_modes_stay_and_all_others_are_faster(model, modes):
 def test_they_are_made_once(model, grid, tmp_path):
     kept, told = WaveMesh(BLOCK, modes=10, cache=BasisCache(tmp_path)), []
     first = surface_modes(kept, grid, progress=lambda done, of: told.append((done, of)))
-    count = len(grid.places)
-    assert told[-1] == (count, count)
+    assert told[-1][0] == told[-1][1] > len(grid.places)
     assert [done for done, _ in told] == sorted(done for done, _ in told)
     told.clear()
     again = surface_modes(kept, grid, progress=lambda done, of: told.append((done, of)))

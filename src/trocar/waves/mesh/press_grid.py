@@ -2,8 +2,8 @@
 
 A site pushes along the surface's mean normal and spreads its force over the surface about it as exp(-d^2/s^2), d the
 distance in space; it reads the surface with the same weights. Both ways together, of waves k a site passes
-exp(-(s k)^2/2): the window of `near_field`, which counts what is shorter. With s as large as the distance of the
-elements' nodes, the mesh can follow what sites ask of it, and with two sites to a window whatever lies between sites
+exp(-(s k)^2/2): the window of `near_field`, which counts what is shorter. With s not much shorter than an edge
+of the elements, the mesh can follow what sites ask of it, and with two sites to a window whatever lies between sites
 is a cubic of theirs (`mesh_patch`).
 
 An even grid, not the mesh's nodes: the site below a tool is found by division, four sites along x and along y always
@@ -27,6 +27,7 @@ from trocar.waves.mesh.surface_rule import surface_rule
 from trocar.waves.mesh.wave_mesh import STEEPEST
 
 LARGEST = 2**30  # [bytes] of a table from every site to every other
+_PER_EDGE = 0.8  # windows to an edge of the mesh, unless another is asked for
 PER_WINDOW = 2.0  # sites to a window, unless another spacing is asked for
 _RING = 3  # columns and rows of the grid beyond the mesh on each side: a cubic's two, and one of no cell
 _REACH = 4.0  # in windows: exp(-16) of a spread force is left out
@@ -71,13 +72,13 @@ def press_grid(
     Args:
         elements: of the mesh.
         surface: its name.
-        window: s [m]; None takes the mean distance of the nodes along the surface's edges.
+        window: s [m]; None takes 0.8 of the mean length of the surface's edges.
         spacing: of the sites [m]; None takes half a window.
 
     Raises:
         InputError: a length is not possible, the table of the sites would be larger than 1 GiB, or nothing looks up.
     """
-    window = _between_nodes(elements, surface) if window is None else window
+    window = _PER_EDGE * _edge(elements, surface) if window is None else window
     spacing = window / PER_WINDOW if spacing is None else spacing
     if not 0 < window < min(elements.mesh.size):
         raise InputError("press grid: window", "a length above 0 and below the mesh's sides [m]", window)
@@ -138,10 +139,10 @@ def press_grid(
     )
 
 
-def _between_nodes(elements: Elements, surface: str) -> float:
-    """Return the mean distance of nodes along the edges of a surface, which have one in their middle [m]."""
+def _edge(elements: Elements, surface: str) -> float:
+    """Return the mean length of the edges of a surface [m]."""
     faces = elements.mesh.corners[elements.mesh.surfaces[surface]]
-    return float(0.5 * np.linalg.norm(faces - np.roll(faces, 1, axis=1), axis=2).mean())
+    return float(np.linalg.norm(faces - np.roll(faces, 1, axis=1), axis=2).mean())
 
 
 def _cells(up: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,14 +1,15 @@
 """Modes of a mesh that answer every site of a surface: its lowest ones, and those that the sites themselves excite.
 
-The lowest modes alone miss most of a dent. What they leave of the static answer to all sites, V = K^-1 P less the
-modes' share, is a space of its own, upright on the modes in the scalar products of K and M (attachment modes: Craig and
-Chang 1977, AIAA 77-405; MacNeal 1971, Comput. Struct. 1:581). From every second column and row of the sites,
+The lowest modes alone miss most of a dent. What they leave of the static answer to the sites, and what the inertia of
+that moves,
 
-    R_cc = Vc^T K Vc = Pc^T Vc,   Vc^T M Vc a = mu R_cc a,
+    V1 = K^-1 P,   V2 = K^-1 M V1,   both less the modes' share,
 
-come modes of frequency mu^-1/2 with the shapes R_.c a at the sites. They carry inertia and damping. Together with the
-lowest modes they give the static answer at those sites exactly, and its second order of frequency. What is
-left at the sites between, R - R_.c R_cc^-1 R_c., is not negative (a Schur complement) and follows at once.
+span a space of its own, upright on the modes in the scalar products of K and M (attachment modes: MacNeal 1971, Comput.
+Struct. 1:581; Craig and Chang 1977, AIAA 77-405). V1 is taken of every second column and row of the sites, V2, which is
+smoother, of every fourth. The modes of this space carry inertia and damping as the lowest do. All together they give
+the static answer at those sites exactly, and that to slow forces nearly so. What is left at the sites between,
+R - S S^T with S the static shapes, is not negative (what a projection leaves) and follows at once.
 """
 
 from __future__ import annotations
@@ -24,8 +25,8 @@ from trocar.waves.mesh.press_grid import PressGrid
 from trocar.waves.mesh.solid_mesh import IntArray
 from trocar.waves.mesh.wave_mesh import WaveMesh
 
-_CHUNK = 64  # sites solved for at once: the factor is read once for all
-_NEW = 1e-7  # of the largest: combinations of sites that answer less than that answer at once
+_CHUNK = 64  # right-hand sides solved for at once: the factor is read once for all
+_NEW = 1e-7  # of the largest: combinations of vectors that are nearer to the others than that answer at once
 
 Progress = Callable[[int, int], None]
 
@@ -58,7 +59,7 @@ def surface_modes(model: WaveMesh, grid: PressGrid, *, progress: Progress | None
     Args:
         model: of the mesh; its modes are the lowest ones.
         grid: the sites, on the model's first surface.
-        progress: told after every part how many sites have been solved for, and of how many.
+        progress: told after every part how many systems of equations are solved, and of how many.
 
     Raises:
         InputError: materials damp differently.
@@ -83,39 +84,62 @@ def _made(
     model: WaveMesh, grid: PressGrid, progress: Progress | None
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     squares, modes = model.lowest
-    forces = grid.forces
+    forces, mass = grid.forces, model.matrices.mass
     count = forces.shape[1]
     lowest = np.asarray(forces.T @ modes)
-    chosen = _every_second(grid.number)
+    chosen, fewer = _every(2, grid.number), _every(4, grid.number)
     place = np.full(count, -1)
     place[chosen] = np.arange(len(chosen))
-    answers, compliance = np.empty((len(modes), len(chosen))), np.empty((count, count))
+    first, second = np.empty((len(modes), len(chosen))), np.empty((len(modes), len(fewer)))
+    compliance, total = np.empty((count, count)), count + len(fewer)
     for begin in range(0, count, _CHUNK):
         own = slice(begin, begin + _CHUNK)
         answer = model.matrices.answer(forces[:, own].toarray())
         compliance[:, own] = forces.T @ answer
         here = np.flatnonzero(place[own] >= 0)
-        answers[:, place[own][here]] = answer[:, here] - modes @ (lowest[begin + here] / squares).T
-        if progress is not None:
-            progress(min(begin + _CHUNK, count), count)
+        first[:, place[own][here]] = answer[:, here] - modes @ (lowest[begin + here] / squares).T
+        _tell(progress, begin + _CHUNK, count, total)
+    for begin in range(0, len(fewer), _CHUNK):
+        moved = mass @ first[:, place[fewer[begin : begin + _CHUNK]]]
+        moved -= mass @ (modes @ (modes.T @ moved))
+        second[:, begin : begin + _CHUNK] = model.matrices.answer(moved)
+        _tell(progress, count + begin + _CHUNK, total, total)
     left = compliance - (lowest / squares) @ lowest.T
     left = 0.5 * (left + left.T)
-    values, vectors = np.linalg.eigh(left[np.ix_(chosen, chosen)])
-    new = values > _NEW * max(values[-1], 0.0)
-    onto = vectors[:, new] / np.sqrt(values[new])
-    heavy = onto.T @ (answers.T @ (model.matrices.mass @ answers)) @ onto
-    masses, turn = np.linalg.eigh(0.5 * (heavy + heavy.T))
-    excited = (left[:, chosen] @ onto) @ turn  # of unit stiffness
-    slowest_first = np.argsort(-masses)
-    masses, excited = masses[slowest_first], excited[:, slowest_first]
+    own_squares, excited = _modes_of(model, first, second)
+    seen = np.asarray(forces.T @ excited)
     return (
-        np.append(squares, 1.0 / masses),
-        np.concatenate([lowest, excited / np.sqrt(masses)], axis=1),
-        left - excited @ excited.T,
+        np.append(squares, own_squares),
+        np.concatenate([lowest, seen], axis=1),
+        left - (seen / own_squares) @ seen.T,
     )
 
 
-def _every_second(number: IntArray) -> IntArray:
-    """Return the sites of every second column and row."""
-    half = number[::2, ::2].ravel()
-    return np.asarray(half[half >= 0], dtype=np.int64)
+def _modes_of(model: WaveMesh, *generations: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return squared angular frequencies [1/s^2], ascending, and modes of unit mass, of what all vectors span."""
+    # Of one size, whatever their unit: a small vector is then one of a site that hardly moves.
+    vectors = np.concatenate(
+        [one / np.linalg.norm(one, axis=0).max() for one in generations if one.shape[1]], axis=1
+    )
+    stiff = vectors.T @ (model.matrices.stiffness @ vectors)
+    energy = np.diag(stiff)
+    size = np.zeros(len(energy))
+    moves = energy > _NEW * energy.max()
+    size[moves] = 1.0 / np.sqrt(energy[moves])
+    values, onto = np.linalg.eigh(0.5 * (stiff + stiff.T) * size[:, None] * size)
+    new = values > _NEW * values[-1]
+    onto = size[:, None] * onto[:, new] / np.sqrt(values[new])
+    heavy = onto.T @ (vectors.T @ (model.matrices.mass @ vectors)) @ onto
+    masses, turn = np.linalg.eigh(-0.5 * (heavy + heavy.T))  # of unit stiffness; the slowest first
+    return -1.0 / masses, vectors @ ((onto @ turn) / np.sqrt(-masses))
+
+
+def _tell(progress: Progress | None, done: int, most: int, total: int) -> None:
+    if progress is not None:
+        progress(min(done, most), total)
+
+
+def _every(nth: int, number: IntArray) -> IntArray:
+    """Return the sites of every nth column and row."""
+    part = number[::nth, ::nth].ravel()
+    return np.asarray(part[part >= 0], dtype=np.int64)

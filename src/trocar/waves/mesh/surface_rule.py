@@ -40,7 +40,9 @@ def surface_rule(elements: Elements, surface: str) -> SurfaceRule:
     basis = elements.facets(surface, _ORDER)
     areas = np.asarray(basis.dx, dtype=np.float64)
     count = areas.size
-    values = np.stack([np.broadcast_to(np.asarray(one[0]), areas.shape).ravel() for one in basis.basis], axis=1)
+    values = np.stack(
+        [np.broadcast_to(np.asarray(one[0]), areas.shape).ravel() for one in basis.basis], axis=1
+    )
     nodes = np.repeat(basis.element_dofs.T, areas.shape[1], axis=0)
     begins = np.arange(0, values.size + 1, values.shape[1])
     return SurfaceRule(
