@@ -9,7 +9,6 @@ import pytest
 from trocar.errors import InputError
 from trocar.model import Press, Profile
 from trocar.tissues import Layer
-from trocar.waves.mesh.block import block_mesh
 from trocar.waves.mesh.mesh_patch import (
     go_on,
     hold,
@@ -25,10 +24,9 @@ from trocar.waves.mesh.press_grid import press_grid
 from trocar.waves.mesh.surface_modes import surface_modes
 from trocar.waves.mesh.wave_mesh import WaveMesh
 from trocar.waves.near_field import half_space, near_field
-from waves.mesh.meshes import ACROSS, LAYERS, THROUGH
+from waves.mesh.meshes import COARSE
 
 DT, WINDOW = 1e-3, 2.2e-3
-COARSE = block_mesh(LAYERS, (ACROSS[::2], ACROSS[::2], THROUGH), support="base")
 LOSSY = replace(COARSE, materials=tuple(replace(one, loss_factor=0.3) for one in COARSE.materials))
 JELLY = Layer(
     name="liver", thickness=0.03, young_modulus=4.5e3, poisson_ratio=0.48, density=1060, loss_factor=0.4

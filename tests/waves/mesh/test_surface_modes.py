@@ -10,12 +10,12 @@ from trocar.waves.mesh.basis_cache import BasisCache
 from trocar.waves.mesh.press_grid import press_grid
 from trocar.waves.mesh.surface_modes import surface_modes
 from trocar.waves.mesh.wave_mesh import WaveMesh
-from waves.mesh.meshes import BLOCK
+from waves.mesh.meshes import COARSE
 
 
 @pytest.fixture(scope="module")
 def model():
-    return WaveMesh(BLOCK, modes=10)
+    return WaveMesh(COARSE, modes=10)
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def test_the_lowest_modes_stay_and_all_others_are_faster(model, modes):
 
 
 def test_they_are_made_once(model, grid, tmp_path):
-    kept, told = WaveMesh(BLOCK, modes=10, cache=BasisCache(tmp_path)), []
+    kept, told = WaveMesh(COARSE, modes=10, cache=BasisCache(tmp_path)), []
     first = surface_modes(kept, grid, progress=lambda done, of: told.append((done, of)))
     assert told[-1][0] == told[-1][1] > len(grid.places)
     assert [done for done, _ in told] == sorted(done for done, _ in told)
@@ -57,7 +57,7 @@ def test_they_are_made_once(model, grid, tmp_path):
 
 
 def test_materials_that_damp_differently_are_refused(grid):
-    cover, *others = BLOCK.materials
-    lossy = replace(BLOCK, materials=(replace(cover, loss_factor=0.2), *others))
+    cover, *others = COARSE.materials
+    lossy = replace(COARSE, materials=(replace(cover, loss_factor=0.2), *others))
     with pytest.raises(InputError, match="one loss for all"):
         surface_modes(WaveMesh(lossy, modes=2), grid)
