@@ -29,17 +29,20 @@ from trocar.contact.normal import press
 from trocar.errors import InputError
 from trocar.model import Press, Profile
 from trocar.waves.mesh.basis_cache import BasisCache
-from trocar.waves.mesh.mesh_patch import go_on, hold, place_patch, push_each_other, read_patches
+from trocar.waves.mesh.mesh_patch import between, go_on, hold, place_patch, push_each_other, read_patches
 from trocar.waves.mesh.mesh_tick import MeshTick, MeshTickState, at_rest, make_mesh_tick
 from trocar.waves.mesh.organ import Liver
 from trocar.waves.mesh.press_grid import PressGrid, press_grid
 from trocar.waves.mesh.surface_modes import SurfaceModes, surface_modes
 from trocar.waves.mesh.wave_mesh import WaveMesh
 from trocar.waves.near_field import half_space, near_field
+from trocar.waves.tick import FAR
 
 DT, MOTION = 1e-3, 60  # [s] a tick; ticks that a press lasts
 RADIUS, DEPTH, SPACING, WIDTH = 2e-3, 2e-3, 0.2, 0.4  # of a ball [m]; of its points, in radii; in spacings
+CLOSE = np.array([[0.125, 0.05], [0.14, 0.065]])  # [m]
 CENTRES, CIRCLE, SPEED = np.array([[0.10, 0.045], [0.15, 0.06]]), 0.012, 0.06  # [m], [m/s]
+PRODUCTS = 20_000  # of the fixed sum
 TURNS, AGREED = 100, 1e-12  # of patches that push each other in, as in a scene
 T = TypeVar("T")
 
@@ -89,8 +92,7 @@ def ticked(tick: MeshTick, state: MeshTickState, touch: Touch, places: np.ndarra
             touch.below[t, i] = below if dips else -1.0
         push_each_other(tick, state, t, t, touch.own[t])
         touch.own[t] += touch.near
-    gap = state.frames[0, 0] - state.frames[1, 0]
-    meet = sqrt(gap[0] ** 2 + gap[1] ** 2 + gap[2] ** 2) < tick.apart + 4.0 * RADIUS
+    meet = between(tick, state, 0, 1) > FAR * min(touch.own[0, 0, 0], touch.own[1, 0, 0])
     if meet:
         push_each_other(tick, state, 0, 1, touch.across)
     touch.order[:, -1] = 0
@@ -121,10 +123,10 @@ def ticked(tick: MeshTick, state: MeshTickState, touch: Touch, places: np.ndarra
 
 
 @njit
-def reference(numbers: np.ndarray) -> float:
-    """Return a sum that takes some fifty microseconds: one product after the other."""
+def reference(count: int) -> float:
+    """Return a sum of products, one after the other, that takes some fifty microseconds."""
     total = 0.0
-    for number in numbers:
+    for number in range(count):
         total = 0.5 * total + number
     return total
 
@@ -165,7 +167,8 @@ def main() -> None:
         moving_as(model, grid, modes, places[:2])
     jumps(grid, modes)
     for points in (7, 5):
-        speed(grid, modes, mesh.materials[0], points, arguments.ticks)
+        for centres in (CENTRES, CLOSE):
+            speed(grid, modes, mesh.materials[0], points, centres, arguments.ticks)
 
 
 def described(grid: PressGrid, modes: SurfaceModes) -> None:
@@ -280,7 +283,9 @@ def jumps(grid: PressGrid, modes: SurfaceModes) -> None:
     )
 
 
-def speed(grid: PressGrid, modes: SurfaceModes, layer: object, points: int, ticks: int) -> None:
+def speed(
+    grid: PressGrid, modes: SurfaceModes, layer: object, points: int, centres: np.ndarray, ticks: int
+) -> None:
     """Print how long a tick takes."""
     steps = np.arange(points) - (points - 1) / 2
     spacing = SPACING * RADIUS * 7 / points
@@ -288,27 +293,29 @@ def speed(grid: PressGrid, modes: SurfaceModes, layer: object, points: int, tick
     at = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
     field = near_field(half_space(layer), pad=WIDTH * spacing, window=grid.window, reach=7 * grid.window)
     near = field.at(spacing * np.linalg.norm(at[:, None] - at[None], axis=2))[..., 0]
-    state, touch, numbers = at_rest(tick), touch_of(np.ascontiguousarray(near)), np.ones(20_000)
+    state, touch = at_rest(tick), touch_of(np.ascontiguousarray(near))
     turn = SPEED / CIRCLE * DT * np.arange(ticks)
     circle = CIRCLE * np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    places = CENTRES + np.stack([circle, circle[:, ::-1]], axis=1)
+    places = centres + np.stack([circle, circle[:, ::-1]], axis=1)
+    apart = 1e3 * np.linalg.norm(places[:, 0] - places[:, 1], axis=1)
     times, still, force = np.empty(ticks), np.empty(ticks), np.empty(ticks)
     ticked(tick, state, touch, places[0])
-    reference(numbers)
+    reference(PRODUCTS)
     for number in range(ticks):
         began = time.perf_counter()
         well = ticked(tick, state, touch, places[number])
         between = time.perf_counter()
-        reference(numbers)
+        reference(PRODUCTS)
         times[number], still[number] = between - began, time.perf_counter() - between
         force[number] = touch.forces[0].sum()
         assert well
     (median, high), (quiet, loud) = (1e6 * np.percentile(each, (50, 99)) for each in (times, still))
     print(
-        f"  {points} x {points} points: a tick takes {median:.1f} us on the median, 99 % below {high:.1f} us "
+        f"  {points} x {points} points, {apart.min():.0f} to {apart.max():.0f} mm apart: "
+        f"median {median:.1f} us, 99 % below {high:.1f} us "
         f"(a fixed sum: {quiet:.1f} and {loud:.1f} us); {state.counts[0]} sites to a patch, "
-        f"{1e3 * tick.apart:.0f} mm within a tick, force {force[1000:].mean():.2f} N +- {force[1000:].std():.2f}, "
-        f"from tick to tick {np.abs(np.diff(force[1000:])).max():.4f} N at most",
+        f"force {1e3 * force[1000:].mean():.2f} mN +- {1e3 * force[1000:].std():.2f}, "
+        f"from tick to tick {1e3 * np.abs(np.diff(force[1000:])).max():.4f} mN at most",
         flush=True,
     )
 

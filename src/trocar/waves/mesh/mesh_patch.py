@@ -16,9 +16,7 @@ from trocar.waves.kernel import turned
 from trocar.waves.mesh.mesh_tick import ROUND, MeshTick, MeshTickState
 from trocar.waves.mesh.wave_mesh import STEEPEST
 
-_DROPS = (
-    2  # onto the surface along the normal; the distance falls by the slope's change within a patch each time
-)
+_DROPS = 2  # onto the surface along the normal, from the last point's height
 
 
 @njit(cache=True)
@@ -84,19 +82,20 @@ def place_patch(
         radius = max(radius, abs(tick.offsets[tool, a]))
     most = ROUND * sqrt(2.0) * radius
     low_i, high_i, low_j, high_j = i, i, j, j
+    height = 0.0
     for point in range(points * points):
         p, q = tick.offsets[tool, point // points], tick.offsets[tool, point % points]
         px = origin[0] + p * along[0] + q * across[0]
         py = origin[1] + p * along[1] + q * across[1]
         pz = origin[2] + p * along[2] + q * across[2]
-        height = 0.0
-        for _ in range(_DROPS + 1):
+        for _ in range(_DROPS):
             i, j = _cubic(tick, px + height * normal[0], py + height * normal[1], state.cubics[point])
             if i < 0:
                 break
             found = _height(tick, i, j, state.cubics[point]) - (pz + height * normal[2])
             height = min(max(height + found * normal[2], -most), most)
         if i < 0:
+            height = 0.0
             continue
         on[point] = True
         heights[point] = height
@@ -202,6 +201,20 @@ def push_each_other(
     np.dot(table, state.weights[other, :there], half)
     np.dot(state.weights[one, :here].T, half, state.pairs)
     out[:] = state.pairs
+
+
+@njit(cache=True)
+def between(
+    tick: MeshTick, state: MeshTickState, one: int, other: int
+) -> float:  # pragma: no cover - compiled
+    """Return how far about the middle of a patch sinks within a tick per newton held on another [m/N], or nearly so.
+
+    One entry of the sites' table: it tells whether the two need to be solved for together.
+    """
+    if state.counts[one] == 0 or state.counts[other] == 0:
+        return 0.0
+    here, there = state.sites[one, state.counts[one] // 2], state.sites[other, state.counts[other] // 2]
+    return abs(tick.at_once[here, there])
 
 
 @njit(cache=True)

@@ -25,7 +25,6 @@ from trocar.waves.mesh.solid_mesh import IntArray
 from trocar.waves.mesh.surface_modes import SurfaceModes
 from trocar.waves.oscillators import Oscillators
 from trocar.waves.state import require_step
-from trocar.waves.tick import FAR
 
 ROUND = 0.5  # the surface stays within so much of a patch's radius of its tangent plane
 
@@ -45,7 +44,6 @@ class MeshTick(NamedTuple):
         first: x, y of the grid's first column and row [m], shape (2,).
         spacing: of the sites [m].
         offsets: of a patch's points from its centre, along both its tangents [m], shape (tools, P).
-        apart: distance from which on sites do not push each other in within a tick [m].
         dt: length of a tick [s].
     """
 
@@ -61,7 +59,6 @@ class MeshTick(NamedTuple):
     first: FloatArray
     spacing: float
     offsets: FloatArray
-    apart: float
     dt: float
 
 
@@ -140,19 +137,8 @@ def make_mesh_tick(modes: SurfaceModes, grid: PressGrid, dt: float, *, offsets: 
         first=np.array(grid.first),
         spacing=grid.spacing,
         offsets=np.ascontiguousarray(offsets, dtype=np.float64),
-        apart=_reach(at_once, grid.places),
         dt=dt,
     )
-
-
-def _reach(at_once: FloatArray, places: FloatArray) -> float:
-    """Return the distance from which on sites push each other in by less than `FAR` of what they do to themselves."""
-    least, reach = FAR * float(np.abs(np.diag(at_once)).max()), 0.0
-    for row, place in zip(at_once, places, strict=True):
-        reach = max(
-            reach, float(np.linalg.norm(places[np.abs(row) > least] - place, axis=1).max(initial=0.0))
-        )
-    return reach
 
 
 def at_rest(tick: MeshTick) -> MeshTickState:
