@@ -16,7 +16,7 @@ from trocar.waves.kernel import turned
 from trocar.waves.mesh.mesh_tick import ROUND, MeshTick, MeshTickState
 from trocar.waves.mesh.wave_mesh import STEEPEST
 
-_DROPS = 2  # onto the surface along the normal, from the last point's height
+_DROPS = 2  # onto the surface along the normal, from a neighbour's height
 
 
 @njit(cache=True)
@@ -82,13 +82,15 @@ def place_patch(
         radius = max(radius, abs(tick.offsets[tool, a]))
     most = ROUND * sqrt(2.0) * radius
     low_i, high_i, low_j, high_j = i, i, j, j
-    height = 0.0
+    height = of_row = 0.0
     for point in range(points * points):
+        if point % points == 0:
+            height = of_row
         p, q = tick.offsets[tool, point // points], tick.offsets[tool, point % points]
         px = origin[0] + p * along[0] + q * across[0]
         py = origin[1] + p * along[1] + q * across[1]
         pz = origin[2] + p * along[2] + q * across[2]
-        for _ in range(_DROPS):
+        for _ in range(_DROPS if point else 2 * _DROPS):  # the first has no neighbour yet
             i, j = _cubic(tick, px + height * normal[0], py + height * normal[1], state.cubics[point])
             if i < 0:
                 break
@@ -99,6 +101,8 @@ def place_patch(
             continue
         on[point] = True
         heights[point] = height
+        if point % points == 0:
+            of_row = height
         state.corners[point, 0], state.corners[point, 1] = i, j
         low_i, high_i = min(low_i, i), max(high_i, i)
         low_j, high_j = min(low_j, j), max(high_j, j)
