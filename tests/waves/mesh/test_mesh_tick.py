@@ -125,7 +125,9 @@ def test_a_patch_lies_in_the_tangent_plane_and_its_points_on_the_surface(organ):
             + state.heights[0][:, None] * normal
         )
         seen = np.array([centre_height(tick, state, *point[:2]) for point in points])
-        assert points[:, 2] == pytest.approx(seen, abs=1e-8)  # two drops onto a nearly flat surface
+        assert points[:, 2] == pytest.approx(
+            seen, abs=1e-7
+        )  # two drops from a neighbour's height, some 0.05 mm off
         assert state.on[0].all()
 
 

@@ -218,7 +218,8 @@ def between(
     if state.counts[one] == 0 or state.counts[other] == 0:
         return 0.0
     here, there = state.sites[one, state.counts[one] // 2], state.sites[other, state.counts[other] // 2]
-    return abs(tick.at_once[here, there])
+    depth: float = abs(tick.at_once[here, there])
+    return depth
 
 
 @njit(cache=True)
