@@ -1,13 +1,16 @@
 """What a nodule takes from the dent of a press: springs under live waves against finite elements with the ball in them.
 
-Run: python bench/nodule.py. Each line is a press of 8 mm over the middle of a nodule: how much less it sinks with the
-nodule than without, by springs (`waves.nodules`) and by axially symmetric elements (scikit-fem), of two lengths, and by
-how much more force it takes to come as deep.
+Run: python bench/nodule.py [--tick]. Each line is a press of 8 mm over the middle of a nodule: how much less it sinks
+with the nodule than without, by springs (`waves.nodules`) and by axially symmetric elements (scikit-fem), of two
+lengths, and by how much more force it takes to come as deep. --tick: what the springs of the task's nodule add to a
+tick, as a ratio.
 """
 
 from __future__ import annotations
 
 import argparse
+import time
+from dataclasses import replace
 from math import pi
 from typing import Any
 
@@ -27,9 +30,12 @@ from skfem import (
 
 from trocar import tissue
 from trocar.model import FloatArray, Support
+from trocar.simulation import HANDLE, JAW, POSE, PRESENT, RECORD, advance, at_rest
 from trocar.simulation.scene import DT
 from trocar.tissues import Layer, Tissue
 from trocar.tissues.nodule import Nodule
+from trocar.training.session import scene_of
+from trocar.training.tasks.catalogue import task
 from trocar.waves.near_field import SMOOTH
 from trocar.waves.nodules import springs_under
 from trocar.waves.solid import WaveSolid
@@ -37,6 +43,7 @@ from trocar.waves.tick import make_tick
 
 TOOL = 4e-3  # [m] radius of the press
 ELEMENTS = (5e-4, 2.5e-4)  # [m]
+TICKS = 2000
 _OUTER = 24  # elements from where they are even to the rim
 BLOCK = Tissue(
     name="a block of fat",
@@ -130,11 +137,44 @@ def _dent(basis: Basis, layers: Tissue, nodule: Nodule | None) -> float:
     return float(2 * pi * load @ moved)
 
 
+def tick_costs() -> None:
+    """Print how much longer a tick of the task takes than one without its nodule."""
+    found = task("find-nodule")
+    plain, lump = (scene_of(replace(found, nodules=own)) for own in ((), found.nodules))
+    x, y = found.nodules[0].x, found.nodules[0].y
+    hand = found.instruments[0]
+    ways = {
+        "without instruments": np.zeros((TICKS, 2, POSE)),
+        "pressing over it": np.zeros((TICKS, 2, POSE)),
+    }
+    for number, pose in enumerate(ways["pressing over it"]):
+        depth = min(1e-3, 1e-5 * number)
+        place = (x + 2e-3 * np.sin(0.01 * number), y, 5e-4 - depth)
+        pose[0, PRESENT], pose[0, JAW] = 1.0, 1.0
+        pose[0, HANDLE : HANDLE + 3] = hand.handle_for(place)
+    for words, poses in ways.items():
+        medians = []
+        for scene in (plain, lump) * 2:  # the first round compiles
+            state, records, durations = at_rest(scene), np.zeros((2, RECORD)), []
+            for pose in poses:
+                began = time.perf_counter()
+                advance(scene, state, pose, records)
+                durations.append(time.perf_counter() - began)
+            medians.append(float(np.median(durations[TICKS // 4 :])))
+        print(
+            f"{words}: {1e6 * medians[2]:.0f} us a tick, with the nodule {medians[3] / medians[2]:.2f} times"
+        )
+
+
 def main() -> None:
     """Run and print."""
-    argparse.ArgumentParser(
+    parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    ).parse_args()
+    )
+    parser.add_argument("--tick", action="store_true")
+    if parser.parse_args().tick:
+        tick_costs()
+        return
     print("| nodule | takes, by springs | by elements | half as many | force at one depth, with to without |")
     print("|---|---|---|---|---|")
     for words, layers, side, depth, radius, modulus in CASES:

@@ -15,8 +15,8 @@ NOTCH = 100 / 0.002  # [px/m] of the wheel
 class ByHand(Obedient):
     """Hands on mouse and keyboard; the picture must be focused."""
 
-    def __init__(self, page, watcher):
-        super().__init__(page, watcher)
+    def __init__(self, page, watcher, lump=None):
+        super().__init__(page, watcher, lump)
         self.box = page.locator("#picture").bounding_box()
         self.active = SIDES[page.inner_text("#active").split()[0]]
         self.jaw_open = [True, True]

@@ -22,10 +22,11 @@ class Obedient(ABC):
     Args:
         page: of the trainer.
         watcher: what is seen of tips and forces, and what is said.
+        lump: where something hidden lies [m]: a mouse has no feeling, so it is told.
     """
 
-    def __init__(self, page, watcher):
-        self.page, self.watcher = page, watcher
+    def __init__(self, page, watcher, lump=None):
+        self.page, self.watcher, self.lump = page, watcher, lump
         self.going = None  # where a gliding tip is on its way to [m]
         self.state = watcher.look()
 
@@ -88,9 +89,15 @@ class Obedient(ABC):
                     self.press(hand, tip[:2], tip, force, wanted)
             case "Close the jaw on it.":
                 self.jaw(hand, is_open=False)
+            case "Feel where less gives way, and close the jaw on it there.":
+                self.take_hold(hand, np.array(self.lump), tip, force, wanted)
             case "Raise it, straight up.":
                 self.move(hand, [*place, tip[2] + 1.2e-4], seen=tip)
-            case "Open the jaw." | "Open the jaw again: it closed on nothing.":
+            case (
+                "Open the jaw."
+                | "Open the jaw again: it closed on nothing."
+                | "Nothing is here. Open the jaw, and feel on."
+            ):
                 self.jaw(hand, is_open=True)
             case "Up.":
                 self.move(hand, [*tip[:2], tip[2] + 1e-3], seen=tip)
@@ -120,6 +127,16 @@ class Obedient(ABC):
         else:
             down = np.clip((wanted - force) / 350.0, -2e-4, 6e-5)  # [N/m] stiffer than the tissue is
         self.move(hand, [*(tip[:2] + way), tip[2] - down], seen=tip)
+
+    def take_hold(self, hand, place, tip, force, wanted):
+        """Close the jaw on the tissue at a place, once it is pressed a little."""
+        away = np.hypot(*(place - tip[:2]))
+        if force == 0.0 and away > 1e-3:
+            self.move(hand, [*(place if tip[2] > 0.6 * ABOVE else tip[:2]), ABOVE], seen=tip)
+        elif force < 0.5 * wanted:
+            self.press(hand, place, tip, force, wanted)
+        else:
+            self.jaw(hand, is_open=False)
 
     def tip(self, hand):
         return np.array(self.state.instruments[hand].tip)

@@ -6,19 +6,19 @@ from scipy.special import i0e
 
 from trocar.errors import InputError
 from trocar.model import Press, Profile
+from trocar.tissues import Layer
 from trocar.waves.banded import surface_compliance
 from trocar.waves.membrane import WaveMembrane
-from trocar.waves.near_field import near_field
+from trocar.waves.near_field import half_space, near_field
 from trocar.waves.solid import WaveSolid
 from trocar.waves.thin_layer import Wavenumbers, vertical_and_along
 
 SIZE = (0.06, 0.06)
 PAD, WINDOW = 0.4e-3, 2e-3
 MODULUS = 1e5  # plane strain, E/(1 - nu^2) [Pa]
-
-
-def half_space(k):
-    return 2 / (MODULUS * k[:, None])
+JELLY = Layer(
+    name="jelly", thickness=1.0, young_modulus=MODULUS * (1 - 0.3**2), poisson_ratio=0.3, density=1000
+)
 
 
 def of_layers(tissue):
@@ -28,7 +28,7 @@ def of_layers(tissue):
 
 def test_on_a_half_space_it_is_the_difference_of_two_gaussians_of_load():
     """Under a pressure exp(-r^2/(2 s^2))/(2 pi s^2) a half space sinks by I0e(q)/(E* s) sqrt(2/pi)/2, q = r^2/4s^2."""
-    found = near_field(half_space, pad=PAD, window=WINDOW, reach=6e-3)
+    found = near_field(half_space(JELLY), pad=PAD, window=WINDOW, reach=6e-3)
     radii = np.linspace(0, 6e-3, 50)
 
     def sinks(width):
@@ -76,7 +76,7 @@ def test_any_set_of_pads_stores_energy(skin):
 
 
 def test_beyond_the_table_there_is_nothing(skin):
-    field = near_field(half_space, pad=PAD, window=WINDOW, reach=3e-3)
+    field = near_field(half_space(JELLY), pad=PAD, window=WINDOW, reach=3e-3)
     assert field.radii[-1] == pytest.approx(3e-3)
     assert field.at(np.array([3.1e-3])) == 0.0
     assert field.at(np.array([2.9e-3]))[0, 0] != 0.0
@@ -87,4 +87,4 @@ def test_beyond_the_table_there_is_nothing(skin):
 )
 def test_impossible_widths_are_refused(pad, window, reach):
     with pytest.raises(InputError, match="near field"):
-        near_field(half_space, pad=pad, window=window, reach=reach)
+        near_field(half_space(JELLY), pad=pad, window=window, reach=reach)

@@ -11,8 +11,9 @@ from math import dist
 
 import numpy as np
 
+from trocar.training.tasks.find import Find
 from trocar.training.tasks.moment import Moment
-from trocar.training.tasks.step import Find, Place
+from trocar.training.tasks.step import Place
 from trocar.training.wish import Wish
 
 _PRESSED = 0.6  # of the most force, to feel with
@@ -22,6 +23,8 @@ _THERE = 2e-3  # [m] from the place that was meant
 _TAKE = 0.5  # of the most force, to take hold with
 _RAISED = 1e-4  # [m] above the surface at rest, with tissue in the jaw
 _DOUBT = 1.6  # times as long as it should last, until a hand believes that nothing is there
+_WIDTH = 0.5  # of the spacing: one standard deviation of the bump that a careful hand believes in
+_FINEST = 1e-3  # [m] between the places where it tries it
 _CLOSER = 0.5  # of the spacing: where a careful hand feels again around the best place
 
 
@@ -31,7 +34,7 @@ class Palpation:
     Args:
         step: what is looked for.
         spacing: of the places felt [m].
-        careful: whether it feels more closely around the best place, and takes the middle of what it felt.
+        careful: whether it feels more closely around the best place, and goes by all that it felt.
     """
 
     def __init__(self, step: Find, *, spacing: float, careful: bool) -> None:
@@ -51,13 +54,13 @@ class Palpation:
     def wishes(self, moment: Moment) -> dict[int, Wish]:
         """Return what either hand should do now."""
         feeling = 1 - self._step.hand
+        if self._left:
+            self._feel(moment, feeling)
         if not self._left and not self._closer:
             self._closer = True
             x, y = self._best
             step = _CLOSER * self._spacing
             self._left = [(x - step, y), (x, y - step), (x + step, y), (x, y + step)]
-        if self._left:
-            self._feel(moment, feeling)
         if self._left:
             place = self._left[0]
             return {feeling: Wish(place=place, force=_PRESSED * self._step.most, aim=place)}
@@ -78,7 +81,7 @@ class Palpation:
         elif self._steady_since is None:
             self._steady_since = moment.time
         elif moment.time - self._steady_since > _FOR:
-            self._depths[self._left.pop(0)] = -float(moment.tip(hand)[2])
+            self._depths[self._left.pop(0)] = moment.depth(hand)
             self._steady_since = None
 
     def _take(self, moment: Moment) -> Wish:
@@ -98,13 +101,15 @@ class Palpation:
         return Wish(place=self._guess, force=_TAKE * self._step.most, aim=self._guess, height=_RAISED)
 
     def _middle(self) -> Place:
-        """Return the middle of where less gave way, by how much less."""
-        deepest, shallowest = max(self._depths.values()), min(self._depths.values())
-        near = [place for place in self._depths if dist(place, self._best) < 1.6 * self._spacing]
-        weights = np.array(
-            [max(0.6 * deepest + 0.4 * shallowest - self._depths[place], 0.0) for place in near]
-        )
-        if not weights.any():
-            return self._best
-        x, y = weights @ np.array(near) / weights.sum()
+        """Return where a bump as wide as half the spacing explains best how deep the tip came."""
+        places, depths = np.array(list(self._depths)), np.array(list(self._depths.values()))
+        (x0, y0), (x1, y1) = self._step.within
+        tried = [(x, y) for x in np.arange(x0, x1, _FINEST) for y in np.arange(y0, y1, _FINEST)]
+        misfits = []
+        for at in tried:
+            bump = np.exp(-((places - at) ** 2).sum(axis=1) / (2 * (_WIDTH * self._spacing) ** 2))
+            table = np.stack([np.ones(len(bump)), -bump], axis=1)
+            level, height = np.linalg.lstsq(table, depths)[0]
+            misfits.append(float(((table @ (level, max(height, 0.0)) - depths) ** 2).sum()))
+        x, y = tried[int(np.argmin(misfits))]
         return float(x), float(y)

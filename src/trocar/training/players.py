@@ -22,9 +22,10 @@ from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.simulation import HANDLE, JAW, POSE, PRESENT
 from trocar.training.palpation import Palpation
+from trocar.training.tasks.find import Find
 from trocar.training.tasks.moment import Moment
 from trocar.training.tasks.progress import Progress
-from trocar.training.tasks.step import Find, Follow, LetGo, Lift, Press, Step, Together
+from trocar.training.tasks.step import Follow, LetGo, Lift, Press, Step, Together
 from trocar.training.wish import Wish
 
 _ABOVE = 4e-3  # [m] over the tissue, where a hand goes from mark to mark
@@ -104,7 +105,7 @@ HABITS = {
         force_error=1.2,
         patience=1.0,
         tremor=6e-5,
-        feels_every=15e-3,
+        feels_every=11e-3,
         feels_again=False,
     ),
 }

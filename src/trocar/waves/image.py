@@ -30,7 +30,7 @@ _BEYOND, _GROWTH = (
     6.0,
     1.3,
 )  # radii of endless body above and below, at least; of its elements, one to the next
-_POINTS = (24, 8, 24)  # of the ball
+_POINTS = (16, 6, 16)  # of the ball
 _SHORTEST = 12.0  # largest wavenumber, in inverse radii: a ball's polynomials hold little of shorter waves
 _WAVENUMBERS, _TURNS = 28, 12
 

@@ -21,6 +21,7 @@ from scipy.special import j0
 
 from trocar.errors import InputError
 from trocar.model import FloatArray
+from trocar.tissues.layer import Layer
 from trocar.tissues.tissue import Tissue
 from trocar.waves.banded import surface_compliance
 from trocar.waves.thin_layer import Wavenumbers, vertical_and_along
@@ -99,6 +100,20 @@ def layered_compliance(tissue: Tissue, k: FloatArray, *, base_held: bool, finest
     layers = vertical_and_along(tissue, base_held=base_held, finest=_FINE * finest)
     result: FloatArray = surface_compliance(layers, Wavenumbers(k, 0.5 * k**2, 0.5 * k**2))[:, :, 0, 0]
     return result
+
+
+def half_space(layer: Layer) -> Compliance:
+    """Return the compliance of a half-space, 2 (1 - nu^2)/(E k) (Johnson 1985, Contact Mechanics, ch. 13).
+
+    Args:
+        layer: its material.
+    """
+    soft = 2 * (1 - layer.poisson_ratio**2) / layer.young_modulus
+
+    def compliance(k: FloatArray) -> FloatArray:
+        return np.asarray(soft / k)[:, None]
+
+    return compliance
 
 
 def _quadrature(first: float, last: float, furthest: float) -> tuple[FloatArray, FloatArray]:

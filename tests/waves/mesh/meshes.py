@@ -18,6 +18,7 @@ LAYERS = Tissue(
 ACROSS = np.linspace(0.0, 0.02, 13)
 THROUGH = np.array([-6.2e-3, -4.2e-3, -2.4e-3, -1.2e-3, -2e-4, 0.0])
 BLOCK = block_mesh(LAYERS, (ACROSS, ACROSS, THROUGH), support="base")
+COARSE = block_mesh(LAYERS, (ACROSS[::2], ACROSS[::2], THROUGH), support="base")
 
 # A brick as six tetrahedra around one of its diagonals.
 _SIX = ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 from trocar.contact.instrument import NAMES
 from trocar.training.metrics.attempt import Attempt
+from trocar.training.tasks.find import Find
 from trocar.training.tasks.progress import Progress
-from trocar.training.tasks.step import Find, Follow, LetGo, Lift, Press, Step, Together
+from trocar.training.tasks.step import Follow, LetGo, Lift, Press, Step, Together
 from trocar.training.tasks.task import Task
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from trocar.tissues.nodule import Nodule
 from trocar.training.tasks.bands import PASS_SOURCE, marking
-from trocar.training.tasks.step import Find
+from trocar.training.tasks.find import Find
 from trocar.training.tasks.task import Task
 
 _HAND = 0  # has the grasper
@@ -34,7 +34,7 @@ def find_nodule(level: int) -> Task:
             ),
         ),
         force_limit=_FORCE_LIMIT,
-        marking=marking(level, expert_time=55.0),
+        marking=marking(level, expert_time=51.0),
         pass_source=PASS_SOURCE,
         nodules=(Nodule(x=x, y=y, depth=_DEPTH, radius=radius, young_modulus=_YOUNG_MODULUS),),
     )

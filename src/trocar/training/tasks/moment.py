@@ -40,9 +40,13 @@ class Moment:
         """Return how far a jaw is open, 0 to 1."""
         return float(self.records[hand, RECORD_JAW])
 
+    def depth(self, hand: int) -> float:
+        """Return how deep a tip's lowest point lies below the surface at rest [m], 0 above it."""
+        return float(self.records[hand, DEPTH])
+
     def strayed(self, hand: int) -> bool:
         """Return whether a tip is in the tissue without touching it: it was in there before the tissue was."""
-        return float(self.records[hand, DEPTH]) > STRAYED and not self.touches(hand) and not self.holds(hand)
+        return self.depth(hand) > STRAYED and not self.touches(hand) and not self.holds(hand)
 
     def holds(self, hand: int) -> bool:
         """Return whether a jaw holds the tissue."""

@@ -19,7 +19,7 @@ from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
-from skfem import Basis, BilinearForm, ElementHexS2, ElementTetP2, MeshHex, MeshTet
+from skfem import Basis, BilinearForm, ElementHexS2, ElementTetP2, FacetBasis, MeshHex, MeshTet
 
 from trocar.errors import InputError
 from trocar.model import FloatArray
@@ -124,6 +124,16 @@ class Elements:
         normal = np.cross(b - a, c - a)
         normal /= np.linalg.norm(normal, axis=1, keepdims=True)
         return places, normal * np.sign(normal[:, 2:])
+
+    def heights(self, surface: str, points: FloatArray) -> FloatArray:
+        """Return the heights [m] of a surface at points, seen from above, and NaN beside it; (n, >= 2) to (n,)."""
+        places, which = _dropped(self.mesh.corners[self._seen(surface)[0]], np.asarray(points)[:, :2])
+        return np.where(which >= 0, places[:, 2], np.nan)
+
+    def facets(self, surface: str, order: int) -> FacetBasis:
+        """Return scikit-fem's basis on a surface, its rule exact for polynomials of an order."""
+        faces = np.unique(self._numbers(self.mesh.surfaces[surface]))
+        return FacetBasis(self._skfem, self._element, facets=faces, intorder=order)
 
     def _dropped(self, surface: str, points: FloatArray) -> tuple[FloatArray, IntArray]:
         """Return where points fall on a surface, and on which of its triangles."""

@@ -45,7 +45,7 @@ MOST_MODES = 500
 _REMEMBERED = 16  # presses whose vectors are kept, and sets of them whose basis is
 _MOST_PRESSES = 8  # whose vectors a state holds; those that no longer press are left first
 _GENERATIONS = 2  # of vectors: 1 + 2 + 4 of a press
-_STEEPEST = 0.259  # z of the normal where a tool still comes from above: 75 degrees
+STEEPEST = 0.259  # z of the normal where a tool still comes from above: 75 degrees
 _NEW = 1e-5  # relative: a vector that is nearer to those before it says nothing new
 
 
@@ -125,13 +125,13 @@ class WaveMesh:
         return inf
 
     @cached_property
-    def _found(self) -> tuple[FloatArray, FloatArray]:
+    def lowest(self) -> tuple[FloatArray, FloatArray]:
         """Squared angular frequencies [1/s^2], ascending, and modes [kg^-1/2], shape (r,) and (unknowns, r)."""
-        squares, modes = self._kept(lambda: self.matrices.modes(self.modes), "modes")
+        squares, modes = self.kept(lambda: self.matrices.modes(self.modes), "modes")
         return squares, modes
 
-    def _kept(self, make: Callable[[], tuple[FloatArray, ...]], *names: object) -> tuple[FloatArray, ...]:
-        """Return arrays out of the cache, or make them."""
+    def kept(self, make: Callable[[], tuple[FloatArray, ...]], *names: object) -> tuple[FloatArray, ...]:
+        """Return arrays that follow from this model and from what prints as names out of the cache, or make them."""
         if self._cache is None:
             return make()
         return self._cache.remembered(fingerprint(self.mesh, self.modes, self.approach, *names), make)
@@ -139,7 +139,7 @@ class WaveMesh:
     @property
     def frequencies(self) -> FloatArray:
         """Frequencies of the modes that move, without damping and as stiff as at once [Hz], shape (r,)."""
-        return np.asarray(np.sqrt(self._found[0]) / (2 * np.pi))
+        return np.asarray(np.sqrt(self.lowest[0]) / (2 * np.pi))
 
     def init(self) -> MeshState:
         """Return the state at rest at time 0."""
@@ -207,7 +207,7 @@ class WaveMesh:
         """Return the displacement of every node [m], shape (3, nodes)."""
         basis = self._basis(state.presses)
         amplitudes = basis.amplitudes(state.oscillators[0], _forces(state.load, state.presses))
-        total = self._found[1] @ amplitudes[: self.modes] + basis.own @ amplitudes[self.modes :]
+        total = self.lowest[1] @ amplitudes[: self.modes] + basis.own @ amplitudes[self.modes :]
         return np.asarray(total.reshape(3, -1))
 
     def nodal_forces(self, press: Press) -> FloatArray:
@@ -221,7 +221,7 @@ class WaveMesh:
         if self.approach is Approach.NORMAL:
             normal = share @ self.elements.seen(surface, points)[1]
             normal /= np.linalg.norm(normal)
-            if normal[2] < _STEEPEST:
+            if normal[2] < STEEPEST:
                 raise InputError(
                     "press: x, y",
                     "a place where the surface looks up, at most 75 degrees from it",
@@ -236,7 +236,7 @@ class WaveMesh:
 
     def _vectors_of(self, press: Press) -> FloatArray:
         """Return the vectors of a press beside the modes, the static one first, shape (unknowns, k)."""
-        return self._kept(lambda: (self._made_vectors(press),), press)[0]
+        return self.kept(lambda: (self._made_vectors(press),), press)[0]
 
     def _made_vectors(self, press: Press) -> FloatArray:
         forces = self.nodal_forces(press)
@@ -261,12 +261,12 @@ class WaveMesh:
         for shares in (np.zeros(len(times)), *between(times)):
             vector = self.matrices.delayed_answer(forces, shares)
             for _ in range(2):
-                vector = vector - self._found[1] @ (self._found[1].T @ (self.matrices.mass @ vector))
+                vector = vector - self.lowest[1] @ (self.lowest[1].T @ (self.matrices.mass @ vector))
             found.append(vector)
         return found
 
     def _basis_of(self, presses: tuple[Press, ...]) -> Reduced:
-        squares, shapes = self._found
+        squares, shapes = self.lowest
         vectors, own = [self._vectors(press) for press in presses], np.zeros((len(shapes), 0))
         for place in range(max((each.shape[1] for each in vectors), default=0)):
             for each in vectors:  # what is after long, or at once, of all first: none of it may be lost
@@ -301,7 +301,7 @@ class WaveMesh:
 
     def _left_out(self, forces: FloatArray) -> FloatArray:
         """Return the answer at once of the modes that are not in the basis to nodal forces [N]."""
-        squares, shapes = self._found
+        squares, shapes = self.lowest
         return np.asarray(self.matrices.answer(forces) - shapes @ ((shapes.T @ forces) / squares))
 
 

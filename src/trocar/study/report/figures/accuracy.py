@@ -49,7 +49,9 @@ def accuracy_figure(points: Sequence[Point], marks: Mapping[str, tuple[str, str]
         for model in shown
     ]
     columns = len(shown) if len(shown) <= _ONE_ROW else -(-len(shown) // 2)
-    figure.legend(handles=handles, loc="outside lower center", ncols=columns, columnspacing=1.2)
+    figure.legend(
+        handles=handles, loc="outside lower center", ncols=columns, columnspacing=1.0, handlelength=1.5
+    )
     return figure
 
 

@@ -1,0 +1,264 @@
+"""The compiled half of a mesh's tick: patches are placed, the modes go on, points push each other in, forces are held.
+
+Between sites everything is the cubic convolution of the four by four around a place (Keys 1981, IEEE Trans. Acoust.
+Speech Signal Process. 29:1153): it goes through the sites, is exact for parabolas, and its slope has no jumps.
+"""
+
+from __future__ import annotations
+
+from math import floor, sqrt
+
+import numpy as np
+from numba import njit
+
+from trocar.model import FloatArray
+from trocar.waves.kernel import turned
+from trocar.waves.mesh.mesh_tick import ROUND, MeshTick, MeshTickState
+from trocar.waves.mesh.wave_mesh import STEEPEST
+
+_DROPS = 3  # onto the surface along the normal, from a neighbour's height
+
+
+@njit(cache=True)
+def _cubic(
+    tick: MeshTick, x: float, y: float, out: FloatArray
+) -> tuple[int, int]:  # pragma: no cover - compiled
+    """Write weights of four columns and four rows about a place; return the first of them, or -1 off the surface."""
+    u, v = (x - tick.first[0]) / tick.spacing, (y - tick.first[1]) / tick.spacing
+    columns, rows = tick.cells.shape
+    if not (0.0 <= u < columns and 0.0 <= v < rows):
+        return -1, -1
+    i, j = floor(u), floor(v)
+    if not tick.cells[i, j]:
+        return -1, -1
+    for axis in range(2):
+        t = u - i if axis == 0 else v - j
+        out[4 * axis] = t * (t * (1.0 - 0.5 * t) - 0.5)
+        out[4 * axis + 1] = 1.0 + t * t * (1.5 * t - 2.5)
+        out[4 * axis + 2] = t * (0.5 + t * (2.0 - 1.5 * t))
+        out[4 * axis + 3] = 0.5 * t * t * (t - 1.0)
+    return i - 1, j - 1
+
+
+@njit(cache=True)
+def _height(tick: MeshTick, i: int, j: int, cubic: FloatArray) -> float:  # pragma: no cover - compiled
+    height = 0.0
+    for a in range(4):
+        site = tick.number[i + a, j]
+        row = 0.0
+        for b in range(4):
+            row += cubic[4 + b] * tick.heights[site + b]
+        height += cubic[a] * row
+    return height
+
+
+@njit(cache=True)
+def place_patch(
+    tick: MeshTick, state: MeshTickState, tool: int, x: float, y: float
+) -> bool:  # pragma: no cover - compiled
+    """Put a patch's centre on the surface at x, y [m], as seen from above, in the tangent plane there.
+
+    Args:
+        tick: parameters.
+        state: overwritten; `frames`, `heights` and `on` say where the points are.
+        tool: number of the patch.
+        x: of its centre [m].
+        y: likewise.
+
+    Returns:
+        Whether the surface is there and looks up; if not, the patch must carry no force.
+    """
+    points = tick.offsets.shape[1]
+    on, heights, frame = state.on[tool], state.heights[tool], state.frames[tool]
+    on[:] = False
+    heights[:] = 0.0
+    state.counts[tool] = 0
+    i, j = _cubic(tick, x, y, state.cubics[0])
+    if i < 0 or not _stand(tick, i, j, x, y, state.cubics[0], frame):
+        return False
+    origin, along, across, normal = frame[0], frame[1], frame[2], frame[3]
+    radius = 0.0
+    for a in range(points):
+        radius = max(radius, abs(tick.offsets[tool, a]))
+    most = ROUND * sqrt(2.0) * radius
+    low_i, high_i, low_j, high_j = i, i, j, j
+    height = of_row = 0.0
+    for point in range(points * points):
+        if point % points == 0:
+            height = of_row
+        p, q = tick.offsets[tool, point // points], tick.offsets[tool, point % points]
+        px = origin[0] + p * along[0] + q * across[0]
+        py = origin[1] + p * along[1] + q * across[1]
+        pz = origin[2] + p * along[2] + q * across[2]
+        for _ in range(_DROPS if point else 2 * _DROPS):  # the first has no neighbour yet
+            i, j = _cubic(tick, px + height * normal[0], py + height * normal[1], state.cubics[point])
+            if i < 0:
+                break
+            found = _height(tick, i, j, state.cubics[point]) - (pz + height * normal[2])
+            height = min(max(height + found * normal[2], -most), most)
+        if i < 0:
+            height = 0.0
+            continue
+        on[point] = True
+        heights[point] = height
+        if point % points == 0:
+            of_row = height
+        state.corners[point, 0], state.corners[point, 1] = i, j
+        low_i, high_i = min(low_i, i), max(high_i, i)
+        low_j, high_j = min(low_j, j), max(high_j, j)
+    _gather(tick, state, tool, low_i, high_i - low_i + 4, low_j, high_j - low_j + 4)
+    return True
+
+
+@njit(cache=True)
+def _stand(
+    tick: MeshTick, i: int, j: int, x: float, y: float, cubic: FloatArray, frame: FloatArray
+) -> bool:  # pragma: no cover - compiled
+    """Write a place's frame: where it is, the tangent that goes along x, the other one, the normal."""
+    origin, along, across, normal = frame[0], frame[1], frame[2], frame[3]
+    origin[0], origin[1], origin[2] = x, y, _height(tick, i, j, cubic)
+    normal[:] = 0.0
+    for a in range(4):
+        site = tick.number[i + a, j]
+        for b in range(4):
+            weight = cubic[a] * cubic[4 + b]
+            for k in range(3):
+                normal[k] += weight * tick.normals[site + b, k]
+    size = sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
+    for k in range(3):
+        normal[k] /= size
+    if normal[2] < STEEPEST:
+        return False
+    level = sqrt(1.0 - normal[0] ** 2)
+    along[0], along[1], along[2] = level, -normal[0] * normal[1] / level, -normal[0] * normal[2] / level
+    across[0], across[1], across[2] = 0.0, normal[2] / level, -normal[1] / level
+    return True
+
+
+@njit(cache=True)
+def _gather(
+    tick: MeshTick, state: MeshTickState, tool: int, first: int, columns: int, left: int, rows: int
+) -> None:  # pragma: no cover - compiled
+    """Number the sites about a patch, and write how every point presses on them and reads them."""
+    sites, weights, on = state.sites[tool], state.weights[tool], state.on[tool]
+    state.counts[tool] = columns * rows
+    for a in range(columns):
+        for b in range(rows):
+            # Of a site that is not there no point has a weight.
+            sites[a * rows + b] = max(tick.number[first + a, left + b], 0)
+            weights[a * rows + b] = 0.0
+    for point in range(len(on)):
+        if on[point]:
+            cubic = state.cubics[point]
+            i, j = state.corners[point, 0] - first, state.corners[point, 1] - left
+            for a in range(4):
+                for b in range(4):
+                    weights[(i + a) * rows + j + b, point] = cubic[a] * cubic[4 + b]
+
+
+@njit(cache=True)
+def go_on(tick: MeshTick, state: MeshTickState) -> None:  # pragma: no cover - compiled
+    """Advance the modes by one tick under the forces held; `amplitudes` are then those without the next ones."""
+    x, y, f, u = state.blocks[0], state.blocks[1], state.force, state.amplitudes
+    e, r = tick.turn, tick.read
+    for k in range(len(f)):
+        p, q = x[k], y[k]
+        x[k] = turned(e[0, k], e[1, k], p, q, e[4, k] * f[k])
+        y[k] = turned(e[2, k], e[3, k], p, q, e[5, k] * f[k])
+        u[k] = r[0, k] * x[k] + r[1, k] * y[k]
+
+
+@njit(cache=True)
+def read_patches(
+    tick: MeshTick, state: MeshTickState, sunk: FloatArray
+) -> None:  # pragma: no cover - compiled
+    """Write how deep the surface has sunk at every patch's points without the next forces [m], shape (tools, P P)."""
+    for t in range(len(state.counts)):
+        sunk[t] = 0.0
+        for k in range(state.counts[t]):
+            site = np.dot(tick.shapes[state.sites[t, k]], state.amplitudes)
+            weights = state.weights[t, k]
+            for point in range(sunk.shape[1]):
+                sunk[t, point] += weights[point] * site
+
+
+@njit(cache=True)
+def push_each_other(
+    tick: MeshTick, state: MeshTickState, one: int, other: int, out: FloatArray
+) -> None:  # pragma: no cover - compiled
+    """Write how far each point of a patch sinks within a tick per newton held on each of another [m/N].
+
+    Args:
+        tick: parameters.
+        state: scratch in it is overwritten.
+        one: number of a patch.
+        other: of the one that presses; it may be the same.
+        out: overwritten, shape (P P, P P); zero at points that are beside the surface.
+    """
+    here, there, pads = state.counts[one], state.counts[other], out.shape[0]
+    table = state.table[: here * there].reshape(here, there)
+    for i in range(here):
+        row = tick.at_once[state.sites[one, i]]
+        for k in range(there):
+            table[i, k] = row[state.sites[other, k]]
+    half = state.half[: here * pads].reshape(here, pads)
+    np.dot(table, state.weights[other, :there], half)
+    np.dot(state.weights[one, :here].T, half, state.pairs)
+    out[:] = state.pairs
+
+
+@njit(cache=True)
+def between(
+    tick: MeshTick, state: MeshTickState, one: int, other: int
+) -> float:  # pragma: no cover - compiled
+    """Return how far about the middle of a patch sinks within a tick per newton held on another [m/N], or nearly so.
+
+    One entry of the sites' table: it tells whether the two need to be solved for together.
+    """
+    if state.counts[one] == 0 or state.counts[other] == 0:
+        return 0.0
+    here, there = state.sites[one, state.counts[one] // 2], state.sites[other, state.counts[other] // 2]
+    depth: float = abs(tick.at_once[here, there])
+    return depth
+
+
+@njit(cache=True)
+def hold(tick: MeshTick, state: MeshTickState, forces: FloatArray) -> None:  # pragma: no cover - compiled
+    """Set the forces that are held through this tick.
+
+    Args:
+        tick: parameters.
+        state: overwritten.
+        forces: of every point into the surface [N], shape (tools, P P).
+    """
+    state.force[:] = 0.0
+    for t in range(len(state.counts)):
+        for k in range(state.counts[t]):
+            weights = state.weights[t, k]
+            total = 0.0
+            for point in range(forces.shape[1]):
+                total += weights[point] * forces[t, point]
+            state.held[t, k] = total
+            if total != 0.0:
+                shape = tick.shapes[state.sites[t, k]]
+                for r in range(len(shape)):
+                    state.force[r] += total * shape[r]
+
+
+@njit(cache=True)
+def let_go(state: MeshTickState) -> None:  # pragma: no cover - compiled
+    """Hold no forces through this tick."""
+    state.force[:] = 0.0
+    state.held[:] = 0.0
+
+
+@njit(cache=True)
+def read_sites(tick: MeshTick, state: MeshTickState, out: FloatArray) -> None:  # pragma: no cover - compiled
+    """Write how deep the surface has sunk at every site at the end of the tick [m], shape (N,); to be drawn."""
+    np.dot(tick.shapes, state.amplitudes, out)
+    for t in range(len(state.counts)):
+        for k in range(state.counts[t]):
+            if state.held[t, k] != 0.0:
+                row = tick.at_once[state.sites[t, k]]
+                for site in range(len(out)):
+                    out[site] += state.held[t, k] * row[site]

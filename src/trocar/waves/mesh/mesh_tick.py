@@ -1,0 +1,168 @@
+"""One tick of a live mesh, laid out for compiled code: modes that answer sites, and sites around patches that move.
+
+As on a flat block (`trocar.waves.tick`) a force is held over a tick, x1 = E x0 + W f is stepped as z1 = E (z0 + W f0)
+with z = x - W f, and W is what the next force adds at once. Here a mode is one damped oscillator of the mesh, its shape
+a number at every site of a `PressGrid`. A point of a patch presses and reads the sites around it with weights B,
+
+    sunk = B^T S z,   f = S^T B p,   W of points = B^T (S W S^T + R) B,
+
+S the shapes, R the static answer of what is left out. The bracket is a table from every site to every other; it is
+positive semidefinite, so W with a near field is positive definite wherever patches stand.
+"""
+
+from __future__ import annotations
+
+from math import ceil, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from trocar.errors import InputError
+from trocar.model import FloatArray
+from trocar.waves.kernel import TINY
+from trocar.waves.mesh.press_grid import PressGrid
+from trocar.waves.mesh.solid_mesh import IntArray
+from trocar.waves.mesh.surface_modes import SurfaceModes
+from trocar.waves.oscillators import Oscillators
+from trocar.waves.state import require_step
+
+ROUND = 0.5  # the surface stays within so much of a patch's radius of its tangent plane
+
+
+class MeshTick(NamedTuple):
+    """What a tick needs to know; compiled code takes it whole. Nothing in it changes.
+
+    Attributes:
+        turn: E00, E01, E10, E11 and E W (2) of every mode, shape (6, r).
+        read: from a mode's block to its amplitude, shape (2, r).
+        gain: W of every mode, from a modal force to its block, shape (2, r).
+        shapes: displacement into the surface at the sites, shape (N, r) [kg^-1/2].
+        at_once: how far each site sinks within a tick per newton held on each [m/N], shape (N, N).
+        number, cells: of the `PressGrid`.
+        heights: of the surface at the sites [m], shape (N,).
+        normals: shape (N, 3).
+        first: x, y of the grid's first column and row [m], shape (2,).
+        spacing: of the sites [m].
+        offsets: of a patch's points from its centre, along both its tangents [m], shape (tools, P).
+        dt: length of a tick [s].
+    """
+
+    turn: FloatArray
+    read: FloatArray
+    gain: FloatArray
+    shapes: FloatArray
+    at_once: FloatArray
+    number: IntArray
+    cells: np.ndarray
+    heights: FloatArray
+    normals: FloatArray
+    first: FloatArray
+    spacing: float
+    offsets: FloatArray
+    dt: float
+
+
+class MeshTickState(NamedTuple):
+    """What a tick changes, in place.
+
+    Attributes:
+        blocks: z = x - W f of every mode, shape (2, r).
+        force: modal forces f held in the last tick, shape (r,).
+        amplitudes: of the modes without the next forces, shape (r,).
+        frames: of the patches: origin [m], two tangents and the normal, shape (tools, 4, 3).
+        heights: of the rest surface over the tangent plane at every point [m], shape (tools, P P).
+        on: which points lie on the surface; others must carry no force, shape (tools, P P).
+        counts: of the sites that a patch touches, 0 where it is beside the surface, shape (tools,).
+        sites: their numbers, shape (tools, K).
+        weights: B, shape (tools, K, P P).
+        held: forces held on those sites [N], shape (tools, K).
+        cubics: scratch, weights along x and y of every point, shape (P P, 8).
+        corners: scratch, cell of every point, shape (P P, 2).
+        table, half: scratch, from sites to sites, and from sites to points, shapes (K K,), (K P P,).
+        pairs: scratch, shape (P P, P P).
+    """
+
+    blocks: FloatArray
+    force: FloatArray
+    amplitudes: FloatArray
+    frames: FloatArray
+    heights: FloatArray
+    on: np.ndarray
+    counts: IntArray
+    sites: IntArray
+    weights: FloatArray
+    held: FloatArray
+    cubics: FloatArray
+    corners: IntArray
+    table: FloatArray
+    half: FloatArray
+    pairs: FloatArray
+
+
+def make_mesh_tick(modes: SurfaceModes, grid: PressGrid, dt: float, *, offsets: FloatArray) -> MeshTick:
+    """Lay out a mesh's exact step of length dt [s] for as many patches as rows of offsets are given.
+
+    Args:
+        modes: that answer the sites.
+        grid: the sites.
+        dt: length of a tick [s].
+        offsets: of the patches' points from their centres, along both tangents [m], shape (tools, P).
+
+    Raises:
+        InputError: an argument is not possible.
+    """
+    require_step((), (), dt)
+    if offsets.ndim != 2 or not offsets.size or not np.isfinite(offsets).all():
+        raise InputError("tick: offsets", "finite numbers [m], a row for each tool", offsets)
+    one = np.ones((len(modes.squares), 1, 1))
+    stiffness = modes.squares[:, None, None]
+    oscillators = Oscillators.of(one, modes.retardation_time * stiffness, stiffness, one, one)
+    step = oscillators.propagator(dt)
+    transition = step.transition[:, 0]
+    gain = (step.start_gain + step.end_gain)[:, 0, :, 0]
+    read = oscillators.outputs[:, 0, 0]
+    turned = np.concatenate([transition.reshape(-1, 4), np.einsum("rab,rb->ra", transition, gain)], axis=1)
+    adds = (read * gain).sum(axis=1)
+    at_once = (modes.shapes * adds) @ modes.shapes.T + modes.rest
+    return MeshTick(
+        turn=np.ascontiguousarray(np.where(np.abs(turned) > TINY, turned, 0.0).T),
+        read=np.ascontiguousarray(read.T),
+        gain=np.ascontiguousarray(gain.T),
+        shapes=np.ascontiguousarray(modes.shapes),
+        at_once=0.5 * (at_once + at_once.T),
+        number=grid.number,
+        cells=grid.cells,
+        heights=np.ascontiguousarray(grid.places[:, 2]),
+        normals=np.ascontiguousarray(grid.normals),
+        first=np.array(grid.first),
+        spacing=grid.spacing,
+        offsets=np.ascontiguousarray(offsets, dtype=np.float64),
+        dt=dt,
+    )
+
+
+def at_rest(tick: MeshTick) -> MeshTickState:
+    """Return the state at rest without load, no patch on the surface, and the scratch arrays."""
+    tools, points = tick.offsets.shape
+    pads = points * points
+    # A patch's radius along the tangents, and as far again as the surface bends away from them.
+    radius = sqrt(2) * float(np.abs(tick.offsets).max())
+    side = ceil(2 * radius * sqrt(1 + ROUND**2) / tick.spacing) + 4
+    modes, most = tick.shapes.shape[1], side * side
+    return MeshTickState(
+        blocks=np.zeros((2, modes)),
+        force=np.zeros(modes),
+        amplitudes=np.zeros(modes),
+        frames=np.zeros((tools, 4, 3)),
+        heights=np.zeros((tools, pads)),
+        on=np.zeros((tools, pads), dtype=np.bool_),
+        counts=np.zeros(tools, dtype=np.int64),
+        sites=np.zeros((tools, most), dtype=np.int64),
+        weights=np.zeros((tools, most, pads)),
+        held=np.zeros((tools, most)),
+        cubics=np.zeros((pads, 8)),
+        corners=np.zeros((pads, 2), dtype=np.int64),
+        table=np.zeros(most * most),
+        half=np.zeros(most * pads),
+        pairs=np.zeros((pads, pads)),
+    )
