@@ -68,6 +68,9 @@ def test_however_it_ends_nothing_stays_behind(ending):
         (["--listen", "0.0.0.0"], "one address of this machine"),
         (["--cert", "none.pem"], "both or neither"),
         (["--port", "70000"], "70000"),
+        (["--nodule", "30,30,8"], "five numbers between commas"),
+        (["--nodule", "30,30,5,8,300"], "less than its depth"),
+        (["--nodule", "30,30,8,4,1"], "a nodule stiffer than fat"),
     ],
 )
 def test_mistakes_are_refused_before_anything_is_started(options, words, capsys, monkeypatch):

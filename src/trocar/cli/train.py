@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from trocar.errors import InputError
+
 if TYPE_CHECKING:
     from trocar.devices.device import Device
+    from trocar.tissues.nodule import Nodule
     from trocar.web.serve import Served
 
 _PORT = 0
@@ -28,6 +31,14 @@ def train(
         str, typer.Option(help="Where the ports are: usual, oblique, one-sided, or a file.toml.")
     ] = "usual",
     model: Annotated[str, typer.Option(help="What moves: wave-membrane or wave-solid.")] = "wave-membrane",
+    nodule: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="X,Y,DEPTH,RADIUS,KPA",
+            help="A stiffer ball in it: its middle, depth and radius [mm], Young's modulus [kPa]; up to four.",
+            show_default=False,
+        ),
+    ] = None,
     device: Annotated[
         str, typer.Option(help="What moves the instruments: web (the page), simulated, recorded.")
     ] = _PAGE,
@@ -77,7 +88,7 @@ def train(
     }
     if headless:
         live = {"tissue": tissue != "skin", "ports": ports != "usual", "model": model != "wave-membrane"}
-        live |= {"script": script is not None, "recording": recording is not None}
+        live |= {"nodule": bool(nodule), "script": script is not None, "recording": recording is not None}
         for option in (option for option, given in live.items() if given):
             raise typer.BadParameter(
                 f"--{option} does not go with --headless: the task says what it is done on"
@@ -106,11 +117,12 @@ def train(
     from trocar.web.stage import set_stage
     from trocar.web.trainer import Trainer
 
+    nodules = tuple(_nodule(text) for text in nodule or ())
     hands = _device(device, ports, script=script, seed=seed, recording=recording)
     check_address(listen, cert, key)
     log = Console(stderr=True, highlight=False)
     with log.status("laying the tissue and its waves out ...") as status:
-        stage = set_stage(tissue, ports=ports, model=model)
+        stage = set_stage(tissue, ports=ports, model=model, nodules=nodules)
         if stage.tissue.large_deformation:
             log.print(
                 "The trainer's waves are linear: of the layers' laws for large strain they take the beginning. "
@@ -141,6 +153,29 @@ def train(
         trainer.close()
         records.close()
     log.print("The trainer has stopped.")
+
+
+def _nodule(text: str) -> Nodule:
+    """Return the nodule that five numbers tell."""
+    from trocar.tissues.nodule import Nodule
+    from trocar.units import KILOPASCAL, MILLIMETRE
+
+    try:
+        x, y, depth, radius, modulus = map(float, text.split(","))
+    except ValueError:
+        raise InputError(
+            "--nodule",
+            "five numbers between commas: x, y, depth and radius [mm], Young's modulus [kPa]",
+            text,
+            "as in --nodule 30,30,8,5,300",
+        ) from None
+    return Nodule(
+        x=x * MILLIMETRE,
+        y=y * MILLIMETRE,
+        depth=depth * MILLIMETRE,
+        radius=radius * MILLIMETRE,
+        young_modulus=modulus * KILOPASCAL,
+    )
 
 
 def _device(name: str, ports: str, **given: Any) -> Device | None:
