@@ -56,6 +56,7 @@ export class Trainer {
     this.panel.greet(hello);
     this.followed.clear();
     if (JSON.stringify(hello) === JSON.stringify(this.hello)) return;
+    this.link.frames.take(); // what waits to be drawn is of what was shown before
     this.hello = hello;
     this.hands = new Hands(hello);
     if (!this.replay.showing) this.look(hello);

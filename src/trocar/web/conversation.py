@@ -154,9 +154,13 @@ class Conversation:
             now = loop.time()
             credit = self._sent - self._acknowledged < self._limits.unacknowledged
             if credit and now >= due:
+                snapshot = self._source.latest()
+                self.greet(self._source.hello())
+                if self._waiting:  # it may be of another scene than the page knows
+                    continue
                 self._sent += 1
                 due = due + period if now - due < period else now + period
-                await self._put(encode(self._source.latest(), self._sent))
+                await self._put(encode(snapshot, self._sent))
                 continue
             self._wake.clear()
             with suppress(TimeoutError):

@@ -61,6 +61,7 @@ class Trainer:
         self._restarts = 0
         self._restarting: threading.Thread | None = None
         self._changing = threading.Lock()  # of the stage, one change at a time
+        self._showing = threading.Lock()  # of servo and stage, which belong to each other
         self._ended = threading.Event()
         self._began: float | None = None  # when the device's time began: with the first page
         self._driving: threading.Thread | None = None
@@ -126,8 +127,10 @@ class Trainer:
         with self._changing:
             servo = _servo_of(stage)
             servo.start()
-            before, self._servo = self._servo, servo
-            self._stage, self._hello = stage, self._greeting(stage)
+            greeting = self._greeting(stage)
+            with self._showing:
+                before, self._servo = self._servo, servo
+                self._stage, self._hello = stage, greeting
             before.close()
             if self._ended.is_set():
                 servo.close()
@@ -140,14 +143,15 @@ class Trainer:
 
     def latest(self) -> Snapshot:
         """Return the newest state, whole."""
-        servo = self._servo
-        state = servo.latest()
-        key = (servo, state.tick, state.amplitudes_tick)
-        if self._shown is not None and self._shown[0] == key and state.age < 0.05:
-            return self._shown[1]
-        snapshot = self.snapshot_of(state)
-        self._shown = (key, snapshot)
-        return snapshot
+        with self._showing:
+            servo = self._servo
+            state = servo.latest()
+            key = (servo, state.tick, state.amplitudes_tick)
+            if self._shown is not None and self._shown[0] == key and state.age < 0.05:
+                return self._shown[1]
+            snapshot = self.snapshot_of(state)
+            self._shown = (key, snapshot)
+            return snapshot
 
     def snapshot_of(self, state: ServoState) -> Snapshot:
         """Return what the page is shown of a servo's state."""
