@@ -11,10 +11,9 @@ import argparse
 import resource
 import tempfile
 import time
-from collections.abc import Callable
-from typing import TypeVar
 
 import numpy as np
+from stopwatch import timed
 
 from trocar import tissue
 from trocar.model import Press
@@ -26,15 +25,6 @@ from trocar.waves.mesh.wave_mesh import MeshState, WaveMesh
 
 DT, STEPS = 1e-3, 2000
 PRESSES = (Press(x=0.12, y=0.045, radius=4e-3, force=0.2), Press(x=0.15, y=0.06, radius=4e-3, force=0.2))
-T = TypeVar("T")
-
-
-def timed(name: str, of: Callable[[], T]) -> T:
-    """Print the processor time of a call; return what it returns."""
-    began = time.process_time()
-    found = of()
-    print(f"  {name}: {time.process_time() - began:.1f} s", flush=True)
-    return found
 
 
 def main() -> None:

@@ -17,12 +17,12 @@ import argparse
 import resource
 import tempfile
 import time
-from collections.abc import Callable
 from math import sqrt
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
+from stopwatch import timed
 
 from trocar import tissue
 from trocar.contact.normal import press
@@ -44,7 +44,6 @@ CLOSE = np.array([[0.125, 0.05], [0.14, 0.065]])  # [m]
 CENTRES, CIRCLE, SPEED = np.array([[0.10, 0.045], [0.15, 0.06]]), 0.012, 0.06  # [m], [m/s]
 PRODUCTS = 20_000  # of the fixed sum
 TURNS, AGREED = 100, 1e-12  # of patches that push each other in, as in a scene
-T = TypeVar("T")
 
 
 class Touch(NamedTuple):
@@ -129,14 +128,6 @@ def reference(count: int) -> float:
     for number in range(count):
         total = 0.5 * total + number
     return total
-
-
-def timed(name: str, of: Callable[[], T]) -> T:
-    """Print the processor time of a call; return what it returns."""
-    began = time.process_time()
-    found = of()
-    print(f"  {name}: {time.process_time() - began:.1f} s", flush=True)
-    return found
 
 
 def main() -> None:

@@ -120,6 +120,7 @@ def test_a_surface_that_is_free_eases_and_one_far_away_does_nothing():
         ((replace(STIFF, depth=16e-3),), "wholly in one of the layers"),
         ((replace(STIFF, young_modulus=9e3),), "stiffer than fat"),
         ((STIFF,) * 5, "at most 4"),
+        ((STIFF, replace(STIFF, x=0.026)), "10 mm apart at least"),
     ],
 )
 def test_nodules_that_cannot_be_are_refused(waves, tick, nodules, words):

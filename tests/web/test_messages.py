@@ -3,6 +3,8 @@
 import pytest
 from pydantic import ValidationError
 
+from trocar.training.tasks.catalogue import task
+from trocar.web.asking import asking
 from trocar.web.messages import Acknowledgement, Camera, Hello, Notice, Reset, read_client_message
 from web.scripted_source import HELLO
 
@@ -50,3 +52,10 @@ def test_a_notice_has_a_known_level():
 
 def test_the_block_is_as_thick_as_its_layers():
     assert HELLO.tissue.thickness == pytest.approx(0.0121, rel=1e-12)
+
+
+def test_what_must_be_found_is_shown_when_it_is_over_and_not_before():
+    step = task("find-nodule").steps[0]
+    assert asking(step)["marks"] == ()
+    assert asking(step, hidden=True)["marks"][0].place_m == step.place
+    assert asking(task("palpate").steps[0])["marks"] != ()

@@ -51,7 +51,7 @@ def press_patches(
         elif not state.inside[t]:
             state.order[t, -1] = 0
             state.inside[t] = True
-    by_springs = tools == 2 and state.springs.near[0] and state.springs.near[1]
+    by_springs = tools == 2 and (state.springs.near[0] or state.springs.near[1])
     meeting = (
         tools == 2
         and pressing[0] != 0.0

@@ -95,7 +95,8 @@ class Palpation:
         elif moment.time - self._holding_since > _DOUBT * self._step.lasting and len(self._depths) > 1:
             near = {place for place in self._depths if dist(place, self._guess) < 0.5 * self._spacing}
             for place in near or {self._best}:
-                del self._depths[place]
+                if len(self._depths) > 1:
+                    del self._depths[place]
             self._guess, self._careful = self._best, False
             self._holding_since = None
         return Wish(place=self._guess, force=_TAKE * self._step.most, aim=self._guess, height=_RAISED)

@@ -16,7 +16,8 @@ other but for what goes by way of the surface. `bench/nodule.py` says how far th
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import pi
+from itertools import combinations
+from math import dist, pi
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -54,13 +55,21 @@ def springs_under(
         window: of the tick [m].
 
     Raises:
-        InputError: a nodule is not wholly in one layer of the block, not stiffer than that, or so near the surface
-            that the waves cannot carry what it does; or there are too many.
+        InputError: two overlap; one is not wholly in one layer of the block, not stiffer than that, or so near the
+            surface that the waves cannot carry what it does; or there are too many.
     """
     if not nodules:
         return NO_SPRINGS
     if len(nodules) > MOST_NODULES:
         raise InputError("nodules", f"at most {MOST_NODULES}", len(nodules))
+    for one, other in combinations(nodules, 2):
+        apart = dist((one.x, one.y, one.depth), (other.x, other.y, other.depth))
+        if apart < one.radius + other.radius:
+            raise InputError(
+                "nodules",
+                f"each beside the others, these two {1e3 * (one.radius + other.radius):.3g} mm apart at least",
+                f"{1e3 * apart:.3g} mm",
+            )
     hosts = [nodule.host(tissue, waves.size) for nodule in nodules]
     columns = waves.surface_modes[1]
     m, n = np.divmod(tick.kept, columns)

@@ -22,6 +22,6 @@ def test_the_pictures_are_small_and_not_blank(study, tmp_path):
 
 def test_the_readme_shows_pictures_that_are_there():
     shown = re.findall(r"!\[[^\]]+\]\(([^)]+\.png)\)", (ROOT / "README.md").read_text())
-    assert len(shown) == 2
+    assert len(shown) == 3
     for place in shown:
         assert (ROOT / place).stat().st_size < LARGEST

@@ -7,6 +7,7 @@ from trocar.errors import InputError
 from trocar.simulation import FORCE, RECORD, TIP, TOUCH, TOUCH_HOLDING, TOUCH_PRESENT, TOUCH_TOUCHING
 from trocar.training.score import Marking
 from trocar.training.tasks.catalogue import LEVELS, TASKS, task
+from trocar.training.tasks.find import Find
 from trocar.training.tasks.moment import Moment
 from trocar.training.tasks.progress import TOO_MUCH, Progress
 from trocar.training.tasks.step import Follow, LetGo, Lift, Press, Together
@@ -138,6 +139,26 @@ def test_tissue_is_lifted_by_a_jaw_that_holds_it():
     assert played(task, (1.05, held)).number == 1
     assert played(task, (1.05, held | {"left": (0.03, 0.03, 5e-4)})).number == 0  # not there
     assert played(task, (1.05, held), (0.01, {})).done
+
+
+def test_what_is_hidden_is_held_where_it_lies_and_nowhere_else():
+    find = Find(
+        hand=0, place=(0.02, 0.03), radius=4e-3, within=((0.01, 0.01), (0.05, 0.05)), most=0.05, lasting=1.0
+    )
+    over, beside = (0.021, 0.03, 0.0), (0.04, 0.03, 0.0)
+    assert not find.met(at(1.0, left=over, forces=(0.02, 0.0)))  # touched, not held
+    held = at(1.0, left=over, forces=(0.02, 0.0), holding=(True, False))
+    assert find.met(held)
+    assert (find.hint(held), find.mistake(held)) == ("Hold it so.", "")
+    hard = at(1.0, left=over, forces=(0.06, 0.0), holding=(True, False))
+    assert not find.met(hard)
+    assert find.hint(hard) == "Softer."
+    wrong = at(1.0, left=beside, forces=(0.02, 0.0), holding=(True, False))
+    assert not find.met(wrong)
+    assert find.hint(wrong).startswith("Nothing is here.")
+    assert find.mistake(wrong) == "took hold where nothing is"
+    assert find.mistake(at(1.0, left=beside, forces=(0.02, 0.0))) == ""
+    assert [mark.hidden for mark in find.marks] == [True]
 
 
 @pytest.mark.parametrize("name", list(TASKS))

@@ -124,3 +124,16 @@ def test_too_many_times_are_refused():
     materials = tuple(replace(one, prony=own) for one, own in zip((COVER, FAT), times, strict=True))
     with pytest.raises(InputError, match="mesh: prony: expected at most 8 different times"):
         WaveMesh(replace(mesh(EVEN), materials=materials))
+
+
+def test_without_inertia_and_memory_it_stands_at_once_where_it_stands_at_rest():
+    """A press, another beside it, and the first gone: no state is left of what was."""
+    none = ((), ())
+    model, moving = made(none, massless=True), made(none, massless=False)
+    near(still(model), still(moving), 1e-9)
+    near(after(model, 1e-3), still(moving), 1e-9)
+    both = model.step(model.init(), (HERE, THERE), (HERE, THERE), 1e-3)
+    second = HERE.with_force(0.0), THERE
+    near(after(model, 1e-3, since=both, start=(HERE, THERE), end=second), still(moving, (THERE,)), 1e-9)
+    none_left = HERE.with_force(0.0), THERE.with_force(0.0)
+    assert not after(model, 1e-3, since=both, start=(HERE, THERE), end=none_left).any()

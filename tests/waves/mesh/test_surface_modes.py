@@ -61,3 +61,11 @@ def test_materials_that_damp_differently_are_refused(grid):
     lossy = replace(COARSE, materials=(replace(cover, loss_factor=0.2), *others))
     with pytest.raises(InputError, match="one loss for all"):
         surface_modes(WaveMesh(lossy, modes=2), grid)
+
+
+def test_materials_that_remember_are_refused(grid):
+    remembers = replace(
+        COARSE, materials=tuple(replace(one, prony=((0.5, 0.1),)) for one in COARSE.materials)
+    )
+    with pytest.raises(InputError, match="Prony series"):
+        surface_modes(WaveMesh(remembers, modes=2), grid)

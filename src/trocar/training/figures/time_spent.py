@@ -12,6 +12,7 @@ from matplotlib.transforms import blended_transform_factory
 from trocar.training.figures.page import BACKGROUND, DIM, LIMIT, TEXT, page_sheet, seconds, svg_text
 from trocar.training.figures.stages import Stretch, stages_of
 from trocar.training.metrics.attempt import Attempt
+from trocar.training.tasks.find import Find
 from trocar.training.tasks.moment import Moment
 from trocar.training.tasks.progress import Progress
 
@@ -66,7 +67,10 @@ def _kind(attempt: Attempt, progress: Progress, stage: Stretch, tick: int) -> in
     moment = Moment(float(attempt.times[tick]), attempt.records[tick])
     now = np.searchsorted(progress.ended, moment.time, side="left")  # the step of this tick, within the stage
     step = progress.task.steps[min(int(now), len(progress.task.steps) - 1)]
-    touching = all(moment.touches(hand) for hand in step.hands)
+    touches = [moment.touches(hand) for hand in step.hands]
+    touching = (
+        any(touches) if isinstance(step, Find) else all(touches)
+    )  # one hand feels, the other takes hold
     if len(stage.steps) > 1:  # along a line, as asked is where nothing is wrong
         return 2 if touching and not step.mistake(moment) else int(touching)
     return 2 if step.met(moment) else int(touching)

@@ -60,8 +60,9 @@ class Find:
     def hint(self, moment: Moment) -> str:
         """Return what is next, and nothing of where it is."""
         if moment.holds(self.hand):
-            there = moment.away(self.hand, self.place) <= self.radius
-            return "Hold it so." if there else "Nothing is here. Open the jaw, and feel on."
+            if moment.away(self.hand, self.place) > self.radius:
+                return "Nothing is here. Open the jaw, and feel on."
+            return "Softer." if moment.force(self.hand) > self.most else "Hold it so."
         if moment.jaw(self.hand) < SHUT:
             return "Open the jaw again: it closed on nothing."
         return "Feel where less gives way, and close the jaw on it there."

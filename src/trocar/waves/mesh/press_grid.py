@@ -38,6 +38,7 @@ class PressGrid:
     """Sites, numbered along y and then along x.
 
     Attributes:
+        surface: its name.
         first: x, y of the grid's first column and row [m].
         spacing: of columns and rows [m].
         window: s [m].
@@ -48,6 +49,7 @@ class PressGrid:
         spread: share of a site's force that each node of the mesh takes, shape (N, nodes).
     """
 
+    surface: str
     first: tuple[float, float]
     spacing: float
     window: float
@@ -128,6 +130,7 @@ def press_grid(
     away = (places - pressed)[beside, :2]
     places[beside, 2] = pressed[beside, 2] + (slopes * away).sum(axis=1)
     return PressGrid(
+        surface=surface,
         first=(float(x[0]), float(y[0])),
         spacing=spacing,
         window=window,

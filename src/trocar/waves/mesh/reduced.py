@@ -51,12 +51,20 @@ class Reduced:
     def oscillators(self) -> Oscillators:
         """One group, read in all amplitudes: pushed by each press, or without inertia at each amplitude."""
         one = np.eye(len(self.stiffness))[None]
-        if self.massless:
-            nothing = Memory(np.zeros(0), np.zeros((0, *one.shape)))
-            return Oscillators.massless(self.stiffness[None], one, one, self.memory or nothing)
-        return Oscillators.of(
-            one, self.damping[None], self.stiffness[None], self.forcing[None], one, self.memory
-        )
+        if not self.massless:
+            return Oscillators.of(
+                one, self.damping[None], self.stiffness[None], self.forcing[None], one, self.memory
+            )
+        if self.memory is None:  # nothing moves: what is static is all
+            count = len(self.stiffness)
+            return Oscillators(
+                matrices=np.zeros((1, 0, 2, 2)),
+                inputs=np.zeros((1, 0, 2, count)),
+                outputs=np.zeros((1, count, 0, 2)),
+                entry=np.zeros((1, 0, 2, 2 * count)),
+                holds=np.zeros((1, 0, 2, count)),
+            )
+        return Oscillators.massless(self.stiffness[None], one, one, self.memory)
 
     def inputs(self, forces: FloatArray) -> FloatArray:
         """Return what `oscillators` take of forces of the presses [N], shape (presses,) to (1, inputs)."""

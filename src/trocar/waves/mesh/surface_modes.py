@@ -76,7 +76,9 @@ def surface_modes(model: WaveMesh, grid: PressGrid, *, progress: Progress | None
             "a Prony series" if remembers else times,
             "WaveMesh itself steps such a tissue",
         )
-    found = model.kept(lambda: _made(model, grid, progress), "surface modes", grid.window, grid.spacing)
+    found = model.kept(
+        lambda: _made(model, grid, progress), "surface modes", grid.surface, grid.window, grid.spacing
+    )
     squares, shapes, rest = found
     return SurfaceModes(squares, shapes, rest, times[0])
 
