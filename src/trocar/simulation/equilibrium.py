@@ -2,19 +2,18 @@
 
 A patch alone is one complementarity problem (`contact.normal`); far from the block's sides its compliance never
 changes, so its factor is kept while the same points press. Near a side the mirror images count, near a nodule what it
-holds, and two patches that reach each other within a tick are solved in turns until they agree.
+holds, and on a mesh no two places are alike. Two patches that reach each other within a tick are solved in turns until
+they agree.
 """
 
 from __future__ import annotations
-
-from math import sqrt
 
 from numba import njit
 
 from trocar.contact.normal import press
 from trocar.model import FloatArray
+from trocar.simulation.ground import keeps_its_answer, meets_within_a_tick, push_each_other
 from trocar.simulation.scene import Scene, SceneState
-from trocar.waves.patch import push_each_other
 from trocar.waves.springs import stiffen
 
 _TURNS = 100  # of two patches that push each other in, until they agree; seen: 3 to 12
@@ -33,7 +32,7 @@ def press_patches(
             part = slice(t * points, (t + 1) * points)
             state.forces[part] = 0.0
             state.touching[part] = False
-        elif not _far_from_sides(scene, state, t):
+        elif not keeps_its_answer(scene.tick, t, state.lowest[t, 0], state.lowest[t, 1]):
             own = state.own[t]
             push_each_other(scene.tick, state.tick, t, t, own)
             for i in range(points):
@@ -56,7 +55,7 @@ def press_patches(
         tools == 2
         and pressing[0] != 0.0
         and pressing[1] != 0.0
-        and (by_springs or _near_each_other(scene, state))
+        and (by_springs or meets_within_a_tick(scene.tick, state.tick, state.lowest, state.own))
     )
     if not meeting:
         well = True
@@ -110,19 +109,3 @@ def _press_patch(
             state.wrong,
         )
     )
-
-
-@njit(cache=True)
-def _near_each_other(scene: Scene, state: SceneState) -> bool:  # pragma: no cover - compiled
-    """Return whether what one patch does reaches the other within a tick."""
-    widths = scene.tick.offsets[0, -1] + scene.tick.offsets[1, -1]
-    x, y = state.lowest[0, 0] - state.lowest[1, 0], state.lowest[0, 1] - state.lowest[1, 1]
-    return bool(sqrt(x * x + y * y) < scene.tick.apart + 1.5 * widths)
-
-
-@njit(cache=True)
-def _far_from_sides(scene: Scene, state: SceneState, t: int) -> bool:  # pragma: no cover - compiled
-    """Return whether a patch's mirror images in the sides are too far to matter."""
-    margin = 0.5 * scene.tick.apart + scene.tick.offsets[t, -1] + 1e-3
-    low, size = state.lowest[t], scene.tick.size
-    return bool(margin < low[0] < size[0] - margin and margin < low[1] < size[1] - margin)

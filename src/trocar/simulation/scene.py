@@ -5,7 +5,8 @@ A scene holds parameters only, as arrays and scalars that compiled code and anot
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from math import pi
 from typing import NamedTuple, Protocol
@@ -19,7 +20,9 @@ from trocar.model import FloatArray, Press, Profile, Support
 from trocar.tissues.nodule import Nodule
 from trocar.tissues.tissue import Tissue
 from trocar.waves.cutoff import measured_cutoff
-from trocar.waves.near_field import SMOOTH, near_field
+from trocar.waves.mesh.mesh_tick import MeshTick, MeshTickState
+from trocar.waves.mesh.mesh_tick import at_rest as mesh_at_rest
+from trocar.waves.near_field import SMOOTH, Compliance, near_field
 from trocar.waves.nodules import springs_under
 from trocar.waves.solid import WaveSolid
 from trocar.waves.springs import Springs, SpringState, springs_at_rest
@@ -30,6 +33,7 @@ DT = 1e-3  # [s] one tick
 POINTS = 7  # of a patch, along x as along y
 TOLERANCE = 1e-4  # of what a patch feels, that the modes are chosen for
 FRICTION = 0.1  # coefficient of wet steel on wet tissue; chosen, between 0.03 and 0.3 of the literature
+_STEPS = np.arange(POINTS) - (POINTS - 1) / 2
 _SPACING = 0.2  # of a patch's points, in a tip's mean semi-axis
 _WIDTH = 0.4  # of a point's Gaussian, in spacings
 _NEAR = 7.0  # reach of the near field, in windows
@@ -56,16 +60,17 @@ class Scene(NamedTuple):
         axes, middles: of their tips' ellipsoids (`contact.tips`) [m], shapes (2, 3).
         holds: whether a tip has jaws, shape (2,).
         near: near field between the points of a patch [m/N], shape (2, P P, P P).
-        own: the same and what they push each other in by waves within a tick, far from the sides.
+        own: the same and what they push each other in by waves within a tick, far from the sides; on a mesh, where that
+            changes from place to place, not used.
         give: in-plane displacement of the surface under a tip per newton of friction [m/N], shape (2,).
         friction: coefficient [1].
         dt: length of a tick [s].
-        modes: M, N of `amplitudes`.
-        layers: of the tissue.
+        modes: M, N of `amplitudes`; on a mesh 1 and how many numbers its picture is made of.
+        layers: of the tissue; on a mesh 1, for one face is seen.
         springs: what nodules in it are to the waves.
     """
 
-    tick: Tick
+    tick: Tick | MeshTick
     ports: FloatArray
     lengths: FloatArray
     axes: FloatArray
@@ -100,14 +105,18 @@ class SceneState(NamedTuple):
         factor, order: of each patch's W, remembered from tick to tick.
         inside: whether they are of `Scene.own`, shape (2,).
         sunk, below, own, across, rest, wrong: scratch of the normal contact.
+        frames: of the surface under the tips: origin [m], both tangents and the normal, shape (2, 4, 3). Drag, slip,
+            depths and slopes are in them; on a flat block their axes are the room's.
+        motions: of the lowest points in this tick [m], shape (2, 3).
+        rises: of the lowest points above the rest surface [m], shape (2,).
         middles, spreads: of the tips' ellipsoids, as seen from their lowest points [m], and S of `contact.tips` [m^2],
-            shapes (2, 3), (2, 3, 3).
+            in the frames; shapes (2, 3), (2, 3, 3).
         centre: scratch, shape (3,).
         vectors: scratch, shape (6, 3).
         springs: of nodules.
     """
 
-    tick: TickState
+    tick: TickState | MeshTickState
     forces: FloatArray
     touching: np.ndarray
     holding: np.ndarray
@@ -129,6 +138,9 @@ class SceneState(NamedTuple):
     order: np.ndarray
     inside: np.ndarray
     wrong: np.ndarray
+    frames: FloatArray
+    motions: FloatArray
+    rises: FloatArray
     middles: FloatArray
     spreads: FloatArray
     centre: FloatArray
@@ -167,36 +179,23 @@ def make_scene(
         raise InputError(
             "scene: support", Support.BASE.value, model.support.value, "clamped sides cannot move"
         )
-    if not 0 <= friction <= 2:
-        raise InputError("scene: friction", "a coefficient from 0 to 2", friction)
-    axes = np.array([TIPS[each.tip].axes for each in instruments])
-    middles = np.array([TIPS[each.tip].middle for each in instruments])
-    radii = np.array([each.shaft_radius for each in instruments])
-    sizes = radii * np.prod(axes, axis=1) ** (1 / 3)
-    spacings = _SPACING * sizes
-    steps = np.arange(POINTS) - (POINTS - 1) / 2
-    offsets = spacings[:, None] * steps
-    tick = make_tick(model, dt, window=window, offsets=offsets, cutoff=_cutoff(model, window, tolerance))
-    places = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
-    apart = np.linalg.norm(places[:, None] - places[None], axis=2)
+    require_friction(friction)
+    tools = Tools.of(instruments)
+    tick = make_tick(
+        model, dt, window=window, offsets=tools.offsets, cutoff=_cutoff(model, window, tolerance)
+    )
     solid = WaveSolid(tissue, size=model.size, support=Support.BASE)
-    near = np.empty((2, len(places), len(places)))
-    for side, spacing in enumerate(spacings.tolist()):
-        width = _WIDTH * spacing
-        field = near_field(
-            partial(solid.compliance, finest=width), pad=width, window=window, reach=_NEAR * window
-        )
-        near[side] = field.at(spacing * apart)[..., 0]
+    near = tools.near(lambda finest: partial(solid.compliance, finest=finest), window)
     return Scene(
         tick=tick,
-        ports=np.array([each.port for each in instruments]),
-        lengths=np.array([each.length for each in instruments]),
-        axes=axes * radii[:, None],
-        middles=middles * radii[:, None],
-        holds=np.array([1.0 if TIPS[each.tip].holds else 0.0 for each in instruments]),
+        ports=tools.ports,
+        lengths=tools.lengths,
+        axes=tools.axes,
+        middles=tools.middles,
+        holds=tools.holds,
         near=near,
         own=tick.inside + near,
-        give=_give(solid, _TOUCH * sizes),
+        give=tools.give(solid),
         friction=friction,
         dt=dt,
         modes=tick.shape[2:],
@@ -205,12 +204,74 @@ def make_scene(
     )
 
 
+def require_friction(friction: float) -> None:
+    """Raise an InputError unless this is a coefficient of friction."""
+    if not 0 <= friction <= 2:
+        raise InputError("scene: friction", "a coefficient from 0 to 2", friction)
+
+
+@dataclass(frozen=True, eq=False)
+class Tools:
+    """What a scene takes of its instruments.
+
+    Attributes:
+        ports, lengths, axes, middles, holds: as in `Scene`.
+        sizes: mean semi-axes of the tips [m], shape (2,).
+    """
+
+    ports: FloatArray
+    lengths: FloatArray
+    axes: FloatArray
+    middles: FloatArray
+    holds: FloatArray
+    sizes: FloatArray
+
+    @classmethod
+    def of(cls, instruments: tuple[Instrument, Instrument]) -> Tools:
+        """Return what a scene takes of these instruments."""
+        radii = np.array([each.shaft_radius for each in instruments])
+        axes = np.array([TIPS[each.tip].axes for each in instruments])
+        return cls(
+            ports=np.array([each.port for each in instruments]),
+            lengths=np.array([each.length for each in instruments]),
+            axes=axes * radii[:, None],
+            middles=np.array([TIPS[each.tip].middle for each in instruments]) * radii[:, None],
+            holds=np.array([1.0 if TIPS[each.tip].holds else 0.0 for each in instruments]),
+            sizes=radii * np.prod(axes, axis=1) ** (1 / 3),
+        )
+
+    @property
+    def offsets(self) -> FloatArray:
+        """Of their patches' points from the centres, along both tangents [m], shape (2, P)."""
+        return np.asarray((_SPACING * self.sizes)[:, None] * _STEPS)
+
+    def near(self, compliance: Callable[[float], Compliance], window: float) -> FloatArray:
+        """Return the near field between the points of a patch [m/N], shape (2, P P, P P).
+
+        Args:
+            compliance: of the tissue, by the width of the smallest pad that presses [m].
+            window: of the waves that move [m].
+        """
+        places = np.stack(np.meshgrid(_STEPS, _STEPS, indexing="ij"), axis=-1).reshape(-1, 2)
+        apart = np.linalg.norm(places[:, None] - places[None], axis=2)
+        near = np.empty((2, len(places), len(places)))
+        for side, spacing in enumerate((_SPACING * self.sizes).tolist()):
+            width = _WIDTH * spacing
+            field = near_field(compliance(width), pad=width, window=window, reach=_NEAR * window)
+            near[side] = field.at(spacing * apart)[..., 0]
+        return near
+
+    def give(self, solid: WaveSolid) -> FloatArray:
+        """Return how far the surface of a block goes with a friction of 1 N under each tip [m/N], shape (2,)."""
+        return _give(solid, _TOUCH * self.sizes)
+
+
 def at_rest(scene: Scene) -> SceneState:
     """Return a scene's state with the tissue at rest and no instrument in it."""
     tools, each = scene.near.shape[:2]
     points = tools * each
     return SceneState(
-        tick=tissue_at_rest(scene.tick),
+        tick=mesh_at_rest(scene.tick) if isinstance(scene.tick, MeshTick) else tissue_at_rest(scene.tick),
         forces=np.zeros(points),
         touching=np.zeros(points, dtype=np.bool_),
         holding=np.zeros(points, dtype=np.bool_),
@@ -232,6 +293,9 @@ def at_rest(scene: Scene) -> SceneState:
         order=np.zeros((tools, each + 1), dtype=np.int64),
         inside=np.zeros(tools, dtype=np.bool_),
         wrong=np.zeros(each, dtype=np.bool_),
+        frames=np.zeros((tools, 4, 3)),
+        motions=np.zeros((tools, 3)),
+        rises=np.zeros(tools),
         middles=np.zeros((tools, 3)),
         spreads=np.zeros((tools, 3, 3)),
         centre=np.zeros(3),

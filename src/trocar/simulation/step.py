@@ -22,12 +22,25 @@ from numba import njit
 
 from trocar.contact.friction import drag
 from trocar.contact.port import felt, reach
-from trocar.contact.tips import lowest, turn_body, underside, underside_or_side
+from trocar.contact.tips import turn_body, underside, underside_or_side
 from trocar.model import FloatArray
 from trocar.simulation.equilibrium import press_patches
+from trocar.simulation.frames import part_along, turn_in, turn_out
+from trocar.simulation.ground import (
+    feel_waves,
+    go_on,
+    height_of,
+    hold,
+    hold_springs,
+    is_there,
+    let_go,
+    place_patch,
+    read_patches,
+    show,
+    stand_under,
+)
 from trocar.simulation.scene import Scene, SceneState
-from trocar.waves.patch import go_on, hold, let_go, place_patch, read_layers, read_patches
-from trocar.waves.springs import feel_points, feel_waves, hold_springs, lie_deeper
+from trocar.waves.springs import feel_points, lie_deeper
 
 # Columns of an instrument's pose, shape (2, POSE): left, right.
 PRESENT, HANDLE, ROLL, JAW, POSE = 0, 1, 4, 5, 6
@@ -126,15 +139,19 @@ def advance(
 
 @njit(cache=True, nogil=True)
 def amplitudes(scene: Scene, state: SceneState, out: FloatArray) -> None:  # pragma: no cover - compiled
-    """Write u_z of every layer's upper face in sin(m pi x/a) sin(n pi y/b), m and n from 1 [m]; (layers, M, N)."""
-    read_layers(scene.tick, state.tick, out)
+    """Write what a picture of the tissue is made of, shape (layers, M, N).
+
+    Of a flat block u_z of every layer's upper face in sin(m pi x/a) sin(n pi y/b), m and n from 1 [m]; of a mesh what
+    `simulation.organ_surface` reads.
+    """
+    show(scene.tick, state.tick, out)
 
 
 @njit(cache=True, nogil=True)
 def come_to_rest(scene: Scene, state: SceneState) -> None:  # pragma: no cover - compiled
     """Put the tissue back to rest; instruments that are in it touch nothing until they have been outside."""
     state.tick.blocks[:] = 0.0
-    state.tick.force[:] = 0.0
+    let_go(state.tick)
     state.forces[:] = 0.0
     state.drag[:] = 0.0
     state.aside[:] = 0.0
@@ -171,30 +188,42 @@ def _put(
         record[TIP + i], record[DIRECTION + i] = tip[i], direction[i]
         outside += (scene.ports[t, i] - handle[i]) ** 2
     record[OUTSIDE] = sqrt(outside)
-    spread = state.spreads[t]
+    spread, frame = state.spreads[t], state.frames[t]
     turn_body(scene.axes[t], scene.middles[t], tip, direction, poses[t, ROLL], state.centre, spread)
-    before_x, before_y = state.lowest[t, 0], state.lowest[t, 1]
-    lowest(state.centre, spread, state.lowest[t])
-    low = state.lowest[t]
+    low, motion = state.lowest[t], state.motions[t]
     for i in range(3):
-        state.middles[t, i] = state.centre[i] - low[i]
-    on_block = 0.0 < low[0] < scene.tick.size[0] and 0.0 < low[1] < scene.tick.size[1]
-    record[DEPTH] = max(-low[2], 0.0) if on_block else 0.0
-    if low[2] > 0.0:
+        motion[i] = -low[i]
+    over = stand_under(scene.tick, state.tick, state.centre, spread, low, frame)
+    for i in range(3):
+        motion[i] += low[i]
+    rise = part_along(frame[3], low[0] - frame[0, 0], low[1] - frame[0, 1], low[2] - frame[0, 2])
+    record[DEPTH] = max(-rise, 0.0) if over else 0.0
+    if rise > 0.0:
         flags[_FREE] = 1.0
-    elif not on_block or flags[_IN_HAND] == 0.0:
+    elif not over or flags[_IN_HAND] == 0.0:
         flags[_FREE] = 0.0
     flags[_IN_HAND] = 1.0
     _grip(scene, state, t, poses[t, JAW], points * points)
-    if flags[_FREE] == 0.0 or not on_block or low[2] > _ABOVE:
+    if flags[_FREE] == 0.0 or not over or rise > _ABOVE:
         _let_go(state, t, points * points)
         return False
-    _drag_along(scene, state, t, low[0] - before_x, low[1] - before_y)
-    x = low[0] - scene.give[t] * state.drag[t, 0]
-    y = low[1] - scene.give[t] * state.drag[t, 1]
+    _drag_along(
+        scene,
+        state,
+        t,
+        part_along(frame[1], motion[0], motion[1], motion[2]),
+        part_along(frame[2], motion[0], motion[1], motion[2]),
+    )
+    gone_along, gone_across = scene.give[t] * state.drag[t, 0], scene.give[t] * state.drag[t, 1]
+    x = frame[0, 0] - (gone_along * frame[1, 0] + gone_across * frame[2, 0])
+    y = frame[0, 1] - (gone_along * frame[1, 1] + gone_across * frame[2, 1])
     record[PLACE], record[PLACE + 1] = x, y
-    place_patch(scene.tick, state.tick, t, x, y)
-    feel_points(scene.springs, state.springs, scene.tick, t, x, y)
+    if not place_patch(scene.tick, state.tick, t, x, y, frame):
+        _let_go(state, t, points * points)
+        return False
+    feel_points(scene.springs, state.springs, scene.tick.offsets, t, x, y)
+    state.rises[t] = rise
+    turn_in(frame, state.centre, low, spread, state.middles[t])
     middle = state.middles[t]
     for i in range(points):
         for k in range(points):
@@ -202,8 +231,9 @@ def _put(
             dx, dy = scene.tick.offsets[t, i], scene.tick.offsets[t, k]
             # From the ellipsoid's middle: its lowest point stands over the patch's centre.
             height, slope_x, slope_y = underside(spread, dx - middle[0], dy - middle[1])
-            inside = 0.0 < x + dx < scene.tick.size[0] and 0.0 < y + dy < scene.tick.size[1]
-            state.depths[t, at] = -(low[2] + middle[2] + height) if inside and height < inf else _AWAY
+            inside = is_there(scene.tick, state.tick, t, at, x, y)
+            rest = height_of(state.tick, t, at)
+            state.depths[t, at] = rest - (rise + middle[2] + height) if inside and height < inf else _AWAY
             if state.depths[t, at] == _AWAY:
                 state.holding[t * points * points + at] = False
             state.slopes[t, at, 0], state.slopes[t, at, 1] = slope_x, slope_y
@@ -251,7 +281,7 @@ def _push_aside(scene: Scene, state: SceneState, t: int, points: int) -> None:  
         aside[1] += force * state.slopes[t, i, 1]
         if way > _STILL**2:
             dx, dy = scene.tick.offsets[t, i // pads] - middle[0], scene.tick.offsets[t, i % pads] - middle[1]
-            now = -state.depths[t, i] - state.lowest[t, 2] - middle[2]
+            now = height_of(state.tick, t, i) - state.depths[t, i] - state.rises[t] - middle[2]
             pushed += force * (underside_or_side(spread, dx + slip[0], dy + slip[1]) - now)
     if way > _STILL**2:
         share = (pushed - aside[0] * slip[0] - aside[1] * slip[1]) / way
@@ -327,14 +357,18 @@ def _answer(
     for i in range(2):
         force[i] = -along[i] - state.sliding[t] * (aside[i] - leaning[i])
     force[2] = normal
+    frame = state.frames[t]
+    turn_out(frame, force)
     # Moment about the tip's end: the resultant acts at the lowest point, the normal force a little beside it.
     rx = state.lowest[t, 0] - record[TIP]
     ry = state.lowest[t, 1] - record[TIP + 1]
     rz = state.lowest[t, 2] - record[TIP + 2]
     moment = state.vectors[5]
-    moment[0] = ry * force[2] - rz * force[1] + arm_y
-    moment[1] = rz * force[0] - rx * force[2] - arm_x
-    moment[2] = rx * force[1] - ry * force[0]
+    moment[0], moment[1], moment[2] = arm_y, -arm_x, 0.0
+    turn_out(frame, moment)
+    moment[0] += ry * force[2] - rz * force[1]
+    moment[1] += rz * force[0] - rx * force[2]
+    moment[2] += rx * force[1] - ry * force[0]
     for i in range(3):
         direction[i] = record[DIRECTION + i]
         record[FORCE + i] = force[i]
@@ -348,6 +382,7 @@ def _answer(
         hand[2] - (moment[0] * direction[1] - moment[1] * direction[0]) / record[OUTSIDE]
     )
     record[TWIST] = moment[0] * direction[0] + moment[1] * direction[1] + moment[2] * direction[2]
-    record[DRAG], record[DRAG + 1] = state.drag[t, 0], state.drag[t, 1]
+    record[DRAG] = along[0] * frame[1, 0] + along[1] * frame[2, 0]
+    record[DRAG + 1] = along[0] * frame[1, 1] + along[1] * frame[2, 1]
     touch = TOUCH_PRESENT + (TOUCH_TOUCHING if touched else 0) + (TOUCH_HOLDING if held else 0)
     record[TOUCH] = touch

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from numba import njit
 
 from trocar.model import FloatArray
-from trocar.waves.tick import Tick, TickState
+from trocar.waves.tick import TickState
 
 
 class Springs(NamedTuple):
@@ -106,22 +106,22 @@ def feel_waves(springs: Springs, state: SpringState, tick: TickState) -> None:  
 
 @njit(cache=True, nogil=True)
 def feel_points(
-    springs: Springs, state: SpringState, tick: Tick, tool: int, x: float, y: float
+    springs: Springs, state: SpringState, offsets: FloatArray, tool: int, x: float, y: float
 ) -> None:  # pragma: no cover - compiled
-    """Read what the points of a patch at x, y [m] do to the springs."""
+    """Read what the points of a patch at x, y [m] do to the springs; their offsets are those of all tools [m]."""
     count = len(springs.answer)
     state.near[tool] = False
     if count == 0:
         return
-    each = tick.offsets.shape[1]
+    each = offsets.shape[1]
     last_x, last_y = springs.table.shape[0] - 1, springs.table.shape[1] - 1
     loud = 0.0
     for i in range(each):
-        right = min(max((x + tick.offsets[tool, i]) / springs.spacing[0], 0.0), float(last_x))
+        right = min(max((x + offsets[tool, i]) / springs.spacing[0], 0.0), float(last_x))
         at_x = min(int(right), last_x - 1)
         p = right - at_x
         for k in range(each):
-            up = min(max((y + tick.offsets[tool, k]) / springs.spacing[1], 0.0), float(last_y))
+            up = min(max((y + offsets[tool, k]) / springs.spacing[1], 0.0), float(last_y))
             at_y = min(int(up), last_y - 1)
             q = up - at_y
             point = state.points[(tool * each + i) * each + k]

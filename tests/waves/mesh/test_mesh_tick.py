@@ -17,9 +17,9 @@ from trocar.waves.mesh.mesh_patch import (
     place_patch,
     push_each_other,
     read_patches,
-    read_sites,
+    write_picture,
 )
-from trocar.waves.mesh.mesh_tick import at_rest, make_mesh_tick
+from trocar.waves.mesh.mesh_tick import at_rest, make_mesh_tick, picture_length, sunk_sites
 from trocar.waves.mesh.organ import Liver
 from trocar.waves.mesh.press_grid import press_grid
 from trocar.waves.mesh.surface_modes import surface_modes
@@ -168,7 +168,7 @@ def test_beside_the_surface_a_patch_presses_nothing(organ):
 
 def test_all_sites_are_read_as_a_patch_reads_them_and_swing_out(organ):
     tick, state = organ.tick(ONE)
-    sites, sunk, own = np.zeros(len(tick.shapes)), np.zeros((1, 1)), np.zeros((1, 1))
+    picture, sunk, own = np.zeros((1, 1, picture_length(tick))), np.zeros((1, 1)), np.zeros((1, 1))
     middle = int(np.argmin(np.linalg.norm(organ.grid.places[:, :2] - [0.12, 0.05], axis=1)))
     x, y = organ.grid.places[middle, :2].tolist()
     for _ in range(30):
@@ -177,13 +177,15 @@ def test_all_sites_are_read_as_a_patch_reads_them_and_swing_out(organ):
         read_patches(tick, state, sunk)
         push_each_other(tick, state, 0, 0, own)
         hold(tick, state, np.ones((1, 1)))
-    read_sites(tick, state, sites)
-    assert sites[middle] == pytest.approx(sunk[0, 0] + own[0, 0], rel=1e-6)
+    write_picture(tick, state, picture)
+    assert sunk_sites(tick, picture)[middle] == pytest.approx(sunk[0, 0] + own[0, 0], rel=1e-6)
     let_go(state)
     for _ in range(5000):
         go_on(tick, state)
-    read_sites(tick, state, sites)
-    assert np.abs(sites).max() < 1e-3 * sunk[0, 0]  # the lowest mode, 8 Hz, loses e^(-w^2 tau t/2)
+    write_picture(tick, state, picture)
+    assert (
+        np.abs(sunk_sites(tick, picture)).max() < 1e-3 * sunk[0, 0]
+    )  # the lowest mode, 8 Hz, loses e^(-w^2 tau t/2)
 
 
 def test_what_is_no_patch_is_refused(organ):

@@ -111,6 +111,26 @@ def place_patch(
 
 
 @njit(cache=True)
+def stand(
+    tick: MeshTick, x: float, y: float, cubic: FloatArray, frame: FloatArray
+) -> bool:  # pragma: no cover - compiled
+    """Write the frame of the place at x, y [m]: where it is, the tangent that goes along x, the other one, the normal.
+
+    Args:
+        tick: parameters.
+        x: as seen from above [m].
+        y: likewise.
+        cubic: scratch, overwritten with the weights of the columns and rows about it, shape (8,).
+        frame: overwritten, shape (4, 3).
+
+    Returns:
+        Whether the surface is there and looks up.
+    """
+    i, j = _cubic(tick, x, y, cubic)
+    return i >= 0 and _stand(tick, i, j, x, y, cubic, frame)
+
+
+@njit(cache=True)
 def _stand(
     tick: MeshTick, i: int, j: int, x: float, y: float, cubic: FloatArray, frame: FloatArray
 ) -> bool:  # pragma: no cover - compiled
@@ -253,12 +273,22 @@ def let_go(state: MeshTickState) -> None:  # pragma: no cover - compiled
 
 
 @njit(cache=True)
-def read_sites(tick: MeshTick, state: MeshTickState, out: FloatArray) -> None:  # pragma: no cover - compiled
-    """Write how deep the surface has sunk at every site at the end of the tick [m], shape (N,); to be drawn."""
-    np.dot(tick.shapes, state.amplitudes, out)
+def write_picture(
+    tick: MeshTick, state: MeshTickState, out: FloatArray
+) -> None:  # pragma: no cover - compiled
+    """Write what `mesh_tick.sunk_sites` makes a picture of: a few numbers, for a tick has no time for all sites.
+
+    Args:
+        tick: parameters.
+        state: of the tissue.
+        out: overwritten with amplitudes of the modes, forces held [N] and the numbers of the sites that they are held
+            on, shape (1, 1, `picture_length`).
+    """
+    modes, many = len(state.amplitudes), state.held.size
+    most = state.held.shape[1]
+    out[0, 0, :modes] = state.amplitudes
+    out[0, 0, modes:] = 0.0
     for t in range(len(state.counts)):
         for k in range(state.counts[t]):
-            if state.held[t, k] != 0.0:
-                row = tick.at_once[state.sites[t, k]]
-                for site in range(len(out)):
-                    out[site] += state.held[t, k] * row[site]
+            out[0, 0, modes + t * most + k] = state.held[t, k]
+            out[0, 0, modes + many + t * most + k] = state.sites[t, k]

@@ -166,3 +166,23 @@ def at_rest(tick: MeshTick) -> MeshTickState:
         half=np.zeros(most * pads),
         pairs=np.zeros((pads, pads)),
     )
+
+
+def picture_length(tick: MeshTick) -> int:
+    """Return how many numbers a picture is made of (`mesh_patch.write_picture`)."""
+    state = at_rest(tick)
+    return len(state.amplitudes) + 2 * state.held.size
+
+
+def sunk_sites(tick: MeshTick, picture: FloatArray) -> FloatArray:
+    """Return how deep the surface has sunk at every site at the end of a tick [m], shape (N,).
+
+    Args:
+        tick: parameters.
+        picture: of the state (`mesh_patch.write_picture`), shape (..., `picture_length`).
+    """
+    modes = tick.shapes.shape[1]
+    amplitudes, (held, sites) = picture.ravel()[:modes], picture.ravel()[modes:].reshape(2, -1)
+    pressed = held != 0.0
+    at_once = tick.at_once[:, sites[pressed].astype(np.int64)]
+    return np.asarray(tick.shapes @ amplitudes + at_once @ held[pressed])

@@ -1,0 +1,118 @@
+"""A scene of a mesh: an organ of any shape, pressed where its surface looks up."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+
+from trocar.contact.instrument import Instrument
+from trocar.model import Support
+from trocar.simulation.scene import DT, FRICTION, Scene, Tools, require_friction
+from trocar.tissues.layer import Layer
+from trocar.tissues.tissue import Tissue
+from trocar.waves.mesh.faces import outer_faces
+from trocar.waves.mesh.mesh_tick import make_mesh_tick, picture_length
+from trocar.waves.mesh.press_grid import PressGrid, press_grid
+from trocar.waves.mesh.surface_modes import SurfaceModes, surface_modes
+from trocar.waves.mesh.wave_mesh import WaveMesh
+from trocar.waves.near_field import half_space
+from trocar.waves.solid import WaveSolid
+from trocar.waves.springs import NO_SPRINGS
+
+
+@dataclass(frozen=True, eq=False)
+class Organ:
+    """A mesh that a scene can be made of.
+
+    Attributes:
+        model: its waves.
+        grid: the sites of its surface that tools press.
+        modes: that answer those.
+    """
+
+    model: WaveMesh
+    grid: PressGrid
+    modes: SurfaceModes
+
+    @classmethod
+    def of(cls, model: WaveMesh, *, progress: Callable[[int, int], None] | None = None) -> Self:
+        """Prepare a mesh; the model's cache is looked in first.
+
+        Args:
+            model: its first surface is pressed.
+            progress: told how many systems of equations are solved, and of how many.
+
+        Raises:
+            InputError: nothing of it looks up, it has too many sites, or its materials damp differently or remember.
+            SolverError: it is not held.
+        """
+        grid = press_grid(model.elements, model.layer_names[0])
+        return cls(model, grid, surface_modes(model, grid, progress=progress))
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Extent along x and y [m]."""
+        return self.model.size
+
+    @cached_property
+    def skin(self) -> Layer:
+        """The material that most of the pressed surface is made of."""
+        mesh = self.model.mesh
+        faces, elements = outer_faces(mesh.cells)
+        pressed = {tuple(face) for face in np.sort(mesh.surfaces[self.grid.surface], axis=1).tolist()}
+        own = [tuple(face) in pressed for face in np.sort(faces, axis=1).tolist()]
+        return mesh.materials[int(np.bincount(mesh.region[elements[own]]).argmax())]
+
+    @cached_property
+    def thickness(self) -> float:
+        """From the lowest to the highest point [m]."""
+        return float(np.ptp(self.model.mesh.corners[:, 2]))
+
+    @cached_property
+    def block(self) -> Tissue:
+        """A flat block of the surface's material as thick as the organ: what the surface is like close by."""
+        return Tissue(layers=(replace(self.skin, thickness=self.thickness),), name=self.skin.name)
+
+
+def make_organ_scene(
+    organ: Organ,
+    instruments: tuple[Instrument, Instrument],
+    *,
+    dt: float = DT,
+    friction: float = FRICTION,
+) -> Scene:
+    """Lay out a scene of an organ.
+
+    Args:
+        organ: the tissue.
+        instruments: left, right.
+        dt: length of a tick [s].
+        friction: coefficient [1].
+
+    Raises:
+        InputError: a number is impossible.
+    """
+    require_friction(friction)
+    tools = Tools.of(instruments)
+    tick = make_mesh_tick(organ.modes, organ.grid, dt, offsets=tools.offsets)
+    near = tools.near(lambda finest: half_space(organ.skin), organ.grid.window)
+    return Scene(
+        tick=tick,
+        ports=tools.ports,
+        lengths=tools.lengths,
+        axes=tools.axes,
+        middles=tools.middles,
+        holds=tools.holds,
+        near=near,
+        own=near,
+        give=tools.give(WaveSolid(organ.block, size=organ.size, support=Support.BASE)),
+        friction=friction,
+        dt=dt,
+        modes=(1, picture_length(tick)),
+        layers=1,
+        springs=NO_SPRINGS,
+    )
