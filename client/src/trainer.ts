@@ -75,7 +75,7 @@ export class Trainer {
     this.built = hello;
     this.scope = new Scope(hello.camera.port_m, hello.camera.target_m);
     this.scope.choose(angle);
-    this.centre = [hello.tissue.size_m[0] / 2, hello.tissue.size_m[1] / 2, 0];
+    this.centre = hello.camera.target_m;
     this.theatre.build(hello);
   }
 
@@ -175,6 +175,6 @@ export class Trainer {
 }
 
 /** What of a greeting is drawn. */
-function drawnOf({ tissue, grid, instruments, camera }: Hello): string {
-  return JSON.stringify([tissue, grid, instruments, camera]);
+function drawnOf({ tissue, grid, shape, instruments, camera }: Hello): string {
+  return JSON.stringify([tissue, grid, shape, instruments, camera]);
 }

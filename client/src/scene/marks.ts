@@ -48,9 +48,11 @@ export class Marks {
   private strips: Strip[] = [];
   private shown = "";
   private size: readonly [number, number] = [1, 1];
+  private rest: readonly (number | null)[] = [];
 
   greet(hello: Hello): void {
     this.size = hello.tissue.size_m;
+    this.rest = hello.shape?.rest_m ?? [];
   }
 
   /** Show these marks and no others. */
@@ -74,7 +76,10 @@ export class Marks {
       const row = clamp((y / this.size[1]) * (ny - 1), 0, ny - 1.001);
       const [i, j] = [Math.floor(column), Math.floor(row)];
       const [u, v] = [column - i, row - j];
-      const at = (di: number, dj: number): number => heights[(j + dj) * nx + i + di] as number;
+      const at = (di: number, dj: number): number => {
+        const node = (j + dj) * nx + i + di;
+        return (this.rest[node] ?? 0) + (heights[node] as number);
+      };
       return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
     };
     for (const strip of this.strips) strip.drape(height);

@@ -1,4 +1,4 @@
-/** The upper face of the tissue: the newest frame's displacement at the grid's nodes, drawn as it is. */
+/** The surface of the tissue: the newest frame's displacement at the grid's nodes, drawn as it is. */
 
 import { BufferAttribute, BufferGeometry } from "three";
 
@@ -14,11 +14,15 @@ export class Surface {
   private readonly normal: Float32Array;
   private readonly shade: Float32Array; // how much of its light a node gets, three equal colours
 
-  /** @param size of the block [m]. @param nx nodes along x, from edge to edge. @param ny nodes along y. */
+  /**
+   * @param size of the tissue's rectangle [m]. @param nx nodes along x, from edge to edge. @param ny nodes along y.
+   * @param rest heights of the nodes at rest [m], null where there is no surface; an empty list for a level one.
+   */
   constructor(
     private readonly size: readonly [number, number],
     private readonly nx: number,
     private readonly ny: number,
+    private readonly rest: readonly (number | null)[] = [],
   ) {
     const count = nx * ny;
     this.position = new Float32Array(3 * count);
@@ -30,7 +34,7 @@ export class Surface {
         const at = j * nx + i;
         const x = (size[0] * i) / (nx - 1);
         const y = (size[1] * j) / (ny - 1);
-        this.position.set([x, y, 0], 3 * at);
+        this.position.set([x, y, this.height(at)], 3 * at);
         this.normal.set([0, 0, 1], 3 * at);
         uv.set([x / TILE, y / TILE], 2 * at); // the texture belongs to the tissue and moves with it
       }
@@ -39,7 +43,16 @@ export class Surface {
     this.geometry.setAttribute("normal", new BufferAttribute(this.normal, 3));
     this.geometry.setAttribute("color", new BufferAttribute(this.shade, 3));
     this.geometry.setAttribute("uv", new BufferAttribute(uv, 2));
-    this.geometry.setIndex(triangles(nx, ny));
+    this.geometry.setIndex(triangles(nx, ny, (at) => this.isDrawn(at)));
+    if (rest.length > 0) this.turnNormals();
+  }
+
+  private isDrawn(at: number): boolean {
+    return this.rest.length === 0 || this.rest[at] !== null;
+  }
+
+  private height(at: number): number {
+    return this.rest[at] ?? 0;
   }
 
   /** Move every node to where the frame has it. */
@@ -51,22 +64,22 @@ export class Surface {
         const at = j * nx + i;
         position[3 * at] = (size[0] * i) / (nx - 1) + (frame.inPlane?.[at] ?? 0);
         position[3 * at + 1] = (size[1] * j) / (ny - 1) + (frame.inPlane?.[count + at] ?? 0);
-        position[3 * at + 2] = frame.heights[at] as number;
+        position[3 * at + 2] = this.height(at) + (frame.heights[at] as number);
       }
     }
     this.turnNormals();
-    this.shadeHollows();
+    this.shadeHollows(frame.heights);
     for (const name of ["position", "normal", "color"]) this.geometry.getAttribute(name).needsUpdate = true;
   }
 
-  /** Darken hollows: a node below the mean of those around it is shut off from light its surroundings send back. */
-  private shadeHollows(): void {
-    const { nx, ny, position, shade } = this;
+  /** Darken what is pressed in: a node sunk below those around it is shut off from light its surroundings send back. */
+  private shadeHollows(heights: Float32Array): void {
+    const { nx, ny, shade } = this;
     const reach = Math.max(1, Math.round((NEARBY * (nx - 1)) / this.size[0]));
     for (let j = 0; j < ny; j++) {
       for (let i = 0; i < nx; i++) {
         const height = (column: number, row: number): number =>
-          position[3 * (inside(row, ny) * nx + inside(column, nx)) + 2] as number;
+          heights[inside(row, ny) * nx + inside(column, nx)] as number;
         const around = height(i - reach, j) + height(i + reach, j) + height(i, j - reach) + height(i, j + reach);
         const below = Math.max(around / 4 - height(i, j), 0) / NEARBY;
         shade.fill(1 / (1 + SHUT_OFF * below), 3 * (j * nx + i), 3 * (j * nx + i) + 3);
@@ -82,10 +95,10 @@ export class Surface {
     for (let j = 0; j < ny; j++) {
       for (let i = 0; i < nx; i++) {
         const at = j * nx + i;
-        const west = i > 0 ? at - 1 : at;
-        const east = i < nx - 1 ? at + 1 : at;
-        const south = j > 0 ? at - nx : at;
-        const north = j < ny - 1 ? at + nx : at;
+        const west = i > 0 && this.isDrawn(at - 1) ? at - 1 : at;
+        const east = i < nx - 1 && this.isDrawn(at + 1) ? at + 1 : at;
+        const south = j > 0 && this.isDrawn(at - nx) ? at - nx : at;
+        const north = j < ny - 1 && this.isDrawn(at + nx) ? at + nx : at;
         const [ax, ay, az] = [between(west, east, 0), between(west, east, 1), between(west, east, 2)];
         const [bx, by, bz] = [between(south, north, 0), between(south, north, 1), between(south, north, 2)];
         const x = ay * bz - az * by;
@@ -104,11 +117,12 @@ function inside(index: number, count: number): number {
   return Math.min(Math.max(index, 0), count - 1);
 }
 
-function triangles(nx: number, ny: number): number[] {
+function triangles(nx: number, ny: number, isDrawn: (at: number) => boolean): number[] {
   const index: number[] = [];
   for (let j = 0; j < ny - 1; j++) {
     for (let i = 0; i < nx - 1; i++) {
       const at = j * nx + i;
+      if (![at, at + 1, at + nx + 1, at + nx].every(isDrawn)) continue;
       index.push(at, at + 1, at + nx + 1, at, at + nx + 1, at + nx);
     }
   }

@@ -13,6 +13,7 @@ import { Instrument } from "./instrument";
 import type { Line } from "./lettering";
 import { Lamp } from "./lamp";
 import { Marks } from "./marks";
+import { Organ } from "./organ";
 import { makePort } from "./port";
 import { makeMaps, WET } from "./skin-texture";
 
@@ -22,7 +23,7 @@ export class Theatre {
   readonly scene = new Scene();
   readonly lamp: Lamp;
   private readonly content = new Group();
-  private block: Block | null = null;
+  private tissue: Block | Organ | null = null;
   private instruments: readonly Instrument[] = [];
   private scopePort = new Group();
   private readonly marks = new Marks();
@@ -40,11 +41,13 @@ export class Theatre {
   build(hello: Hello): void {
     this.content.clear();
     const [a, b] = hello.tissue.size_m;
-    this.block = new Block(hello, this.maps, this.shade);
-    this.content.add(this.block.group, makeCavity(hello, this.maps, this.shade));
+    this.tissue = hello.shape
+      ? new Organ(hello, hello.shape, this.maps, this.shade)
+      : new Block(hello, this.maps, this.shade);
+    this.content.add(this.tissue.group, makeCavity(hello, this.maps, this.shade));
     this.instruments = hello.instruments.map((shape: InstrumentShape) => {
       const instrument = new Instrument(shape);
-      this.content.add(instrument.group, makePort(shape.port_m, [a / 2, b / 2, 0], shape.shaft_radius_m));
+      this.content.add(instrument.group, makePort(shape.port_m, [a / 2, b / 2, hello.camera.target_m[2]], shape.shaft_radius_m));
       return instrument;
     });
     this.scopePort = makePort(hello.camera.port_m, hello.camera.target_m, SCOPE_RADIUS);
@@ -65,7 +68,7 @@ export class Theatre {
 
   /** Show the tissue as the newest frame has it. */
   deform(frame: Frame): void {
-    this.block?.update(frame);
+    this.tissue?.update(frame);
     this.marks.drape(frame);
   }
 

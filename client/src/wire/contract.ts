@@ -53,6 +53,8 @@ export interface Hello {
   readonly linear_force_n: number;
   /** requested ticks of the servo in a second */
   readonly rate_hz: number;
+  /** of a tissue that is no block */
+  readonly shape: OrganShape | null;
   /** whether there are tasks to do, under /api/tasks */
   readonly lessons: boolean;
   /** whose hands move the instruments: the page's, or a device of the trainer's own */
@@ -83,6 +85,16 @@ export interface Notice {
   readonly type: "notice";
   readonly level: "info" | "warning" | "stopped";
   readonly text: string;
+}
+
+/** An organ that is no block: the grid's nodes lie on its surface, and its other faces stay as they are. */
+export interface OrganShape {
+  /** heights of the grid's nodes at rest, x fastest; null where nothing is drawn */
+  readonly rest_m: readonly (number | null)[];
+  /** of the other faces */
+  readonly corners_m: readonly (readonly [number, number, number])[];
+  /** triangles of those corners */
+  readonly faces: readonly (readonly [number, number, number])[];
 }
 
 /** The tissue shall go back to rest. */

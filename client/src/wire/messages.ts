@@ -1,8 +1,8 @@
 /** The text half of the live stream: what the server says in JSON, checked before anything uses it. */
 
-import { type Guiding, type Hello, type InstrumentShape, type Notice, PROTOCOL } from "./contract";
+import { type Guiding, type Hello, type InstrumentShape, type Notice, type OrganShape, PROTOCOL } from "./contract";
 
-export type { Guiding, Hello, InstrumentShape, Notice, TaskMark } from "./contract";
+export type { Guiding, Hello, InstrumentShape, Notice, OrganShape, TaskMark } from "./contract";
 /** What a step asks for. */
 export type Asked = Pick<Guiding, "words" | "marks" | "least_n" | "most_n">;
 export type Tip = InstrumentShape["tip"];
@@ -66,6 +66,7 @@ function readHello(message: unknown): Hello {
     hello.tissue.layers.length > 0 &&
     hello.tissue.layers.every((layer) => typeof layer.name === "string" && layer.thickness_m > 0) &&
     isNumbers(hello.grid, 2) &&
+    (hello.shape === null || isOrgan(hello.shape, hello.grid[0] * hello.grid[1])) &&
     isNumbers(hello.camera?.port_m, 3) &&
     isNumbers(hello.camera.target_m, 3) &&
     Number.isFinite(hello.linear_force_n) &&
@@ -77,6 +78,18 @@ function readHello(message: unknown): Hello {
     hello.instruments.every(isInstrument);
   if (!sound) throw new WireError("The trainer's greeting lacks what this page needs to draw.");
   return hello;
+}
+
+function isOrgan(shape: OrganShape, nodes: number): boolean {
+  return (
+    Array.isArray(shape.rest_m) &&
+    shape.rest_m.length === nodes &&
+    shape.rest_m.every((height) => height === null || Number.isFinite(height)) &&
+    Array.isArray(shape.corners_m) &&
+    shape.corners_m.every((corner) => isNumbers(corner, 3)) &&
+    Array.isArray(shape.faces) &&
+    shape.faces.every((face) => isNumbers(face, 3) && Math.max(...face) < shape.corners_m.length)
+  );
 }
 
 function isInstrument(shape: InstrumentShape): boolean {

@@ -10,9 +10,12 @@ import typer
 from trocar.errors import InputError
 
 if TYPE_CHECKING:
+    from rich.status import Status
+
     from trocar.devices.device import Device
     from trocar.tissues.nodule import Nodule
     from trocar.web.serve import Served
+    from trocar.web.stage import Stage
 
 _PORT = 0
 _PAGE = "web"
@@ -38,6 +41,25 @@ def train(
             help="A stiffer ball in it: its middle, depth and radius [mm], Young's modulus [kPa]; up to four.",
             show_default=False,
         ),
+    ] = None,
+    mesh: Annotated[
+        str | None,
+        typer.Option(
+            help="An organ in place of the block: liver, or a mesh file, of the tissue's lowest layer.",
+            show_default=False,
+        ),
+    ] = None,
+    mesh_unit: Annotated[
+        str | None, typer.Option(help="Of the file's lengths: m, cm, mm or um.", show_default="mm")
+    ] = None,
+    mesh_up: Annotated[
+        str | None, typer.Option(help="Which axis of the file looks up, as in +z.", show_default="+z")
+    ] = None,
+    mesh_held: Annotated[
+        str | None, typer.Option(help="The group of its faces that does not move.", show_default="below")
+    ] = None,
+    mesh_touched: Annotated[
+        str | None, typer.Option(help="The group of its faces to press.", show_default="above")
     ] = None,
     device: Annotated[
         str, typer.Option(help="What moves the instruments: web (the page), simulated, recorded.")
@@ -88,7 +110,12 @@ def train(
     }
     if headless:
         live = {"tissue": tissue != "skin", "ports": ports != "usual", "model": model != "wave-membrane"}
-        live |= {"nodule": bool(nodule), "script": script is not None, "recording": recording is not None}
+        live |= {
+            "mesh": mesh is not None,
+            "nodule": bool(nodule),
+            "script": script is not None,
+            "recording": recording is not None,
+        }
         for option in (option for option, given in live.items() if given):
             raise typer.BadParameter(
                 f"--{option} does not go with --headless: the task says what it is done on"
@@ -118,11 +145,25 @@ def train(
     from trocar.web.trainer import Trainer
 
     nodules = tuple(_nodule(text) for text in nodule or ())
+    reading = {"unit": mesh_unit, "up": mesh_up, "held": mesh_held, "touched": mesh_touched}
+    reading = {option: value for option, value in reading.items() if value is not None}
+    if mesh is None:
+        for option in reading:
+            raise typer.BadParameter(f"--mesh-{option} goes with --mesh")
+    elif nodules or model != "wave-membrane":
+        raise typer.BadParameter(f"--{'nodule' if nodules else 'model'} is for a block; a mesh has its own")
+    elif device == "simulated":
+        raise typer.BadParameter(
+            "--device simulated presses a level block; with --mesh take the page's hands"
+        )
     hands = _device(device, ports, script=script, seed=seed, recording=recording)
     check_address(listen, cert, key)
     log = Console(stderr=True, highlight=False)
     with log.status("laying the tissue and its waves out ...") as status:
-        stage = set_stage(tissue, ports=ports, model=model, nodules=nodules)
+        if mesh is None:
+            stage = set_stage(tissue, ports=ports, model=model, nodules=nodules)
+        else:
+            stage = _organ_stage(mesh, tissue, ports, reading, status)
         if stage.tissue.large_deformation:
             log.print(
                 "The trainer's waves are linear: of the layers' laws for large strain they take the beginning. "
@@ -153,6 +194,22 @@ def train(
         trainer.close()
         records.close()
     log.print("The trainer has stopped.")
+
+
+def _organ_stage(mesh: str, tissue: str, ports: str, reading: dict[str, Any], status: Status) -> Stage:
+    """Read an organ's mesh and find what answers a press anywhere on it."""
+    from trocar.simulation.live_organ import live_organ, organ_mesh
+    from trocar.tissues.catalogue import tissue as preset
+    from trocar.web.stage import organ_stage
+
+    status.update("reading the mesh ...")
+    organ = organ_mesh(mesh, preset(tissue), **reading)
+    status.update("finding the mesh's modes; kept for the next time ...")
+
+    def told(done: int, total: int) -> None:
+        status.update(f"finding how the surface answers, {100 * done // total} %; kept for the next time ...")
+
+    return organ_stage(live_organ(organ, progress=told), ports=ports)
 
 
 def _nodule(text: str) -> Nodule:

@@ -18,9 +18,9 @@ from trocar.tissues.tissue import Tissue
 from trocar.waves.in_plane import InPlane
 from trocar.waves.near_field import SMOOTH, layered_compliance, near_field
 
-_REACH = 4.0  # of the near field that is drawn, in windows
+REACH = 4.0  # of the near field that is drawn, in windows
 _WIDTH = 0.25  # of the force under a tip, one standard deviation in its mean semi-axis: half a patch
-_LEAST = 1e-6  # [N] a smaller force is not drawn
+LEAST = 1e-6  # [N] a smaller force is not drawn
 
 
 class Surface:
@@ -45,13 +45,24 @@ class Surface:
                 partial(layered_compliance, tissue, base_held=True, finest=width),
                 pad=width,
                 window=SMOOTH,
-                reach=_REACH * SMOOTH,
+                reach=REACH * SMOOTH,
             )
             for width in (_WIDTH * np.prod(scene.axes, axis=1) ** (1 / 3)).tolist()
         ]
         self._in_plane = InPlane(
             tissue, size=size, modes=scene.modes, radius=2 * SMOOTH, x=self._x, y=self._y
         )
+
+    def moved(
+        self, amplitudes: FloatArray, records: FloatArray
+    ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """Return u_z of every layer's upper face [m], shape (layers, ny, nx), and u_x and u_y of the top face [m].
+
+        Args:
+            amplitudes: of the waves (`amplitudes`) [m], shape (layers, M, N).
+            records: of both instruments (`advance`), shape (2, RECORD).
+        """
+        return self.heights(amplitudes, records), self.in_plane(records)
 
     def heights(self, amplitudes: FloatArray, records: FloatArray) -> NDArray[np.float32]:
         """Return u_z of every layer's upper face [m], shape (layers, ny, nx), top first.
@@ -63,7 +74,7 @@ class Surface:
         faces = np.ascontiguousarray(self._across.T @ np.swapaxes(amplitudes, 1, 2) @ self._along)
         for record, near in zip(records, self._near, strict=True):
             force, (x, y) = record[FORCE + 2], record[PLACE : PLACE + 2]
-            if abs(force) < _LEAST:
+            if abs(force) < LEAST:
                 continue
             reach = near.radii[-1]
             rows = slice(*np.searchsorted(self._y, (y - reach, y + reach)))
@@ -81,6 +92,6 @@ class Surface:
         total = np.zeros((2, len(self._y), len(self._x)))
         for record in records:
             drag = float(record[DRAG]), float(record[DRAG + 1])
-            if max(map(abs, drag)) >= _LEAST:
+            if max(map(abs, drag)) >= LEAST:
                 total += self._in_plane.under(float(record[PLACE]), float(record[PLACE + 1]), drag)
         return total.astype(np.float32)

@@ -42,6 +42,16 @@ class TissueSize(Message):
         return sum(layer.thickness_m for layer in self.layers)
 
 
+class OrganShape(Message):
+    """An organ that is no block: the grid's nodes lie on its surface, and its other faces stay as they are."""
+
+    rest_m: tuple[float | None, ...] = Field(
+        description="heights of the grid's nodes at rest, x fastest; null where nothing is drawn"
+    )
+    corners_m: tuple[Vector, ...] = Field(description="of the other faces")
+    faces: tuple[tuple[int, int, int], ...] = Field(description="triangles of those corners")
+
+
 class InstrumentShape(Message):
     """A straight shaft through a port; the tip lies `length_m` from the handle, through the port."""
 
@@ -71,6 +81,7 @@ class Hello(Message):
     camera: Camera
     linear_force_n: float = Field(description="up to this force the tissue's answer is trusted as linear")
     rate_hz: float = Field(description="requested ticks of the servo in a second")
+    shape: OrganShape | None = Field(default=None, description="of a tissue that is no block")
     lessons: bool = Field(default=False, description="whether there are tasks to do, under /api/tasks")
     steered_by: Literal["page", "trainer"] = Field(
         default="page",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from math import isfinite
 
 import numpy as np
 
@@ -23,6 +24,8 @@ from trocar.simulation import (
     make_scene,
 )
 from trocar.simulation.live import LIVE_MODELS, LIVE_SIZE, live_model
+from trocar.simulation.organ import Organ, make_organ_scene
+from trocar.simulation.organ_surface import OrganSurface
 from trocar.simulation.surface import Surface
 from trocar.study.linear_range import linear_range
 from trocar.tissues.catalogue import tissue as preset
@@ -30,10 +33,12 @@ from trocar.tissues.nodule import Nodule
 from trocar.tissues.tissue import Tissue
 from trocar.training.tasks.task import Task
 from trocar.waves.solid import WaveSolid
-from trocar.web.messages import Camera, Hello, InstrumentShape, LayerSize, TissueSize
+from trocar.web.messages import Camera, Hello, InstrumentShape, LayerSize, OrganShape, TissueSize
 from trocar.web.source import InstrumentState, Snapshot, Status, Touch
 
 GRID = (64, 64)
+ORGAN_MODEL = "wave-mesh"
+_NODE, _MOST_NODES = 1.5e-3, 160  # [m] between the nodes of an organ's surface; of a side at most
 _CAMERA_BACK, _CAMERA_UP = 0.1, 0.11  # [m] from the middle of the block
 
 
@@ -50,6 +55,7 @@ class Stage:
         linear_force: up to this force the tissue's answer is trusted as linear [N].
         grid: nodes of the surface along x and y.
         nodules: in the tissue.
+        organ: what the scene is made of, if that is no block; `tissue` is then one of its material.
     """
 
     tissue: Tissue
@@ -59,11 +65,26 @@ class Stage:
     instruments: tuple[Instrument, Instrument]
     linear_force: float
     nodules: tuple[Nodule, ...] = ()
+    organ: Organ | None = None
     grid: tuple[int, int] = GRID
 
     @cached_property
-    def _surface(self) -> Surface:
+    def _surface(self) -> Surface | OrganSurface:
+        if self.organ is not None:
+            return OrganSurface(self.scene, self.organ, grid=self.grid)
         return Surface(self.scene, self.tissue, size=self.size, grid=self.grid)
+
+    @cached_property
+    def _shape(self) -> OrganShape | None:
+        surface = self._surface
+        if not isinstance(surface, OrganSurface):
+            return None
+        corners, faces = surface.sides
+        return OrganShape(
+            rest_m=tuple(round(z, 6) if isfinite(z) else None for z in surface.rest.ravel().tolist()),
+            corners_m=tuple(_vector(corner) for corner in np.round(corners, 6)),
+            faces=tuple((a, b, c) for a, b, c in faces.tolist()),
+        )
 
     def suits(self, task: Task) -> bool:
         """Return whether a task is done in this scene."""
@@ -71,6 +92,7 @@ class Stage:
             self.tissue == preset(task.tissue)
             and self.instruments == task.instruments
             and self.nodules == task.nodules
+            and self.organ is None
             and (self.model, self.size) == (LIVE_MODELS[0], LIVE_SIZE)
         )
 
@@ -81,7 +103,7 @@ class Stage:
             by_page: whether the page's hands move the instruments.
             lessons: whether there are tasks to do.
         """
-        middle = (self.size[0] / 2, self.size[1] / 2, 0.0)
+        middle = (self.size[0] / 2, self.size[1] / 2, self._middle_height)
         return Hello(
             tissue=TissueSize(
                 name=self.tissue.name,
@@ -92,12 +114,21 @@ class Stage:
             ),
             grid=self.grid,
             instruments=tuple(_shape(instrument) for instrument in self.instruments),
+            shape=self._shape,
             camera=Camera(port_m=(middle[0], middle[1] - _CAMERA_BACK, _CAMERA_UP), target_m=middle),
             linear_force_n=self.linear_force,
             rate_hz=round(1 / self.scene.dt, 6),
             lessons=lessons,
             steered_by="page" if by_page else "trainer",
         )
+
+    @property
+    def _middle_height(self) -> float:
+        """How high the middle of the tissue lies [m]."""
+        if not isinstance(self._surface, OrganSurface):
+            return 0.0
+        height = float(self._surface.rest[self.grid[1] // 2, self.grid[0] // 2])
+        return height if isfinite(height) else 0.0
 
     def snapshot(
         self,
@@ -134,6 +165,7 @@ class Stage:
             status |= Status.BEYOND_LINEAR
         felt = np.zeros((2, 3)) if hand_forces is None else hand_forces
         left, right = (_instrument(record, force) for record, force in zip(records, felt, strict=True))
+        heights, in_plane = self._surface.moved(amplitudes, records)
         return Snapshot(
             tick=tick,
             time=time,
@@ -144,8 +176,8 @@ class Stage:
             tick_p99=tick_p99,
             status=status,
             instruments=(left, right),
-            heights=self._surface.heights(amplitudes, records),
-            in_plane=self._surface.in_plane(records),
+            heights=heights,
+            in_plane=in_plane,
         )
 
 
@@ -173,18 +205,49 @@ def set_stage(
         raise InputError("model", " or ".join(LIVE_MODELS), model)
     layers = preset(tissue)
     instruments = instruments_through(ports, size)
-    # The range's thresholds were found under flat tools, so it is that of a flat tool as wide as the shaft.
-    press = Press(x=size[0] / 2, y=size[1] / 2, radius=instruments[0].shaft_radius, force=1e-2)
-    limit = linear_range(WaveSolid(layers, size=size, support=Support.BASE), layers, (press,)).force_limit
     return Stage(
         tissue=layers,
         model=model,
         size=size,
         scene=make_scene(live_model(layers, model, size=size), layers, instruments, nodules=nodules),
         instruments=instruments,
-        linear_force=limit,
+        linear_force=_linear_force(layers, size, instruments),
         nodules=nodules,
     )
+
+
+def organ_stage(organ: Organ, *, ports: str = "usual") -> Stage:
+    """Make a stage of an organ.
+
+    Args:
+        organ: the tissue.
+        ports: name of a port set, or a file (`contact.port_sets`); they are about the middle of the organ's rectangle.
+
+    Raises:
+        InputError: the ports are not there, or do not go together.
+    """
+    instruments = instruments_through(ports, organ.size)
+    nodes_x, nodes_y = (min(max(round(side / _NODE) + 1, GRID[0]), _MOST_NODES) for side in organ.size)
+    return Stage(
+        tissue=organ.block,
+        model=ORGAN_MODEL,
+        size=organ.size,
+        scene=make_organ_scene(organ, instruments),
+        instruments=instruments,
+        linear_force=_linear_force(organ.block, organ.size, instruments),
+        organ=organ,
+        grid=(nodes_x, nodes_y),
+    )
+
+
+def _linear_force(
+    layers: Tissue, size: tuple[float, float], instruments: tuple[Instrument, Instrument]
+) -> float:
+    """Return up to which force the tissue's answer is trusted as linear [N]."""
+    # The range's thresholds were found under flat tools, so it is that of a flat tool as wide as the shaft.
+    press = Press(x=size[0] / 2, y=size[1] / 2, radius=instruments[0].shaft_radius, force=1e-2)
+    solid = WaveSolid(layers, size=size, support=Support.BASE)
+    return linear_range(solid, layers, (press,)).force_limit
 
 
 @lru_cache(maxsize=8)

@@ -69,6 +69,8 @@ def _interface(name: str, schema: Mapping[str, Any]) -> str:
 def _type(schema: Mapping[str, Any]) -> str:
     if "$ref" in schema:
         return str(schema["$ref"]).rpartition("/")[2]
+    if "anyOf" in schema:
+        return " | ".join(map(_type, schema["anyOf"]))
     if "const" in schema:
         return _literal(schema["const"])
     if "enum" in schema:

@@ -142,6 +142,34 @@ def press_grid(
     )
 
 
+def cubic_table(grid: PressGrid, places: FloatArray) -> sp.csr_array:
+    """Return the weights of sites at places, shape (n, N): Keys's cubic convolution, as a live patch reads them.
+
+    Args:
+        grid: the sites.
+        places: as seen from above [m], shape (n, 2); a row is empty where a tool cannot press.
+    """
+    at = (np.asarray(places) - grid.first) / grid.spacing
+    cell = np.floor(at).astype(np.int64)
+    inside = ((cell >= 1) & (cell < np.array(grid.cells.shape) - 2)).all(axis=1)
+    inside[inside] = grid.cells[tuple(cell[inside].T)]
+    t, cell = (at - cell)[inside], cell[inside]
+    cubic = np.stack(
+        [
+            t * (t * (1.0 - 0.5 * t) - 0.5),
+            1.0 + t * t * (1.5 * t - 2.5),
+            t * (0.5 + t * (2.0 - 1.5 * t)),
+            0.5 * t * t * (t - 1.0),
+        ],
+        axis=-1,
+    )
+    around = np.arange(-1, 3)
+    columns = grid.number[cell[:, 0, None, None] + around[:, None], cell[:, 1, None, None] + around]
+    weights = cubic[:, 0, :, None] * cubic[:, 1, None, :]
+    rows = np.repeat(np.flatnonzero(inside), 16)
+    return sp.csr_array((weights.ravel(), (rows, columns.ravel())), shape=(len(at), len(grid.places)))
+
+
 def _edge(elements: Elements, surface: str) -> float:
     """Return the mean length of the edges of a surface [m]."""
     faces = elements.mesh.corners[elements.mesh.surfaces[surface]]
