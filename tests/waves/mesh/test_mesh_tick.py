@@ -18,6 +18,7 @@ from trocar.waves.mesh.mesh_patch import (
     push_each_other,
     read_patches,
     read_sites,
+    stand,
 )
 from trocar.waves.mesh.mesh_tick import at_rest, make_mesh_tick
 from trocar.waves.mesh.organ import Liver
@@ -129,6 +130,17 @@ def test_a_patch_lies_in_the_tangent_plane_and_its_points_on_the_surface(organ):
             seen, abs=1e-8
         )  # three drops from a neighbour's height, some 0.05 mm off
         assert state.on[0].all()
+
+
+def test_a_place_stands_as_a_patch_there_does(organ):
+    tick, state = organ.tick(PATCHES)
+    cubic, frame = np.zeros(8), np.zeros((4, 3))
+    for x, y in ((0.06, 0.05), (0.12, 0.03)):
+        place_patch(tick, state, 1, x, y)
+        assert stand(tick, x, y, cubic, frame)
+        assert np.array_equal(frame, state.frames[1])
+    assert not stand(tick, -1.0, 0.05, cubic, frame)
+    assert not stand(tick, 0.001, 0.001, cubic, frame)
 
 
 def centre_height(tick, state, x, y):

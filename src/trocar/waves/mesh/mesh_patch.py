@@ -53,6 +53,46 @@ def _height(tick: MeshTick, i: int, j: int, cubic: FloatArray) -> float:  # prag
 
 
 @njit(cache=True)
+def stand(
+    tick: MeshTick, x: float, y: float, cubic: FloatArray, frame: FloatArray
+) -> bool:  # pragma: no cover - compiled
+    """Write the frame of a place on the surface, without a patch.
+
+    Args:
+        tick: parameters.
+        x: of the place, as seen from above [m].
+        y: likewise.
+        cubic: scratch, shape (8,).
+        frame: overwritten with the place [m], the tangent that goes along x, the other one and the normal,
+            shape (4, 3); worth nothing where False is returned.
+
+    Returns:
+        Whether the surface is there and looks up.
+    """
+    i, j = _cubic(tick, x, y, cubic)
+    if i < 0:
+        return False
+    origin, along, across, normal = frame[0], frame[1], frame[2], frame[3]
+    origin[0], origin[1], origin[2] = x, y, _height(tick, i, j, cubic)
+    normal[:] = 0.0
+    for a in range(4):
+        site = tick.number[i + a, j]
+        for b in range(4):
+            weight = cubic[a] * cubic[4 + b]
+            for k in range(3):
+                normal[k] += weight * tick.normals[site + b, k]
+    size = sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
+    for k in range(3):
+        normal[k] /= size
+    if normal[2] < STEEPEST:
+        return False
+    level = sqrt(1.0 - normal[0] ** 2)
+    along[0], along[1], along[2] = level, -normal[0] * normal[1] / level, -normal[0] * normal[2] / level
+    across[0], across[1], across[2] = 0.0, normal[2] / level, -normal[1] / level
+    return True
+
+
+@njit(cache=True)
 def place_patch(
     tick: MeshTick, state: MeshTickState, tool: int, x: float, y: float
 ) -> bool:  # pragma: no cover - compiled
@@ -73,14 +113,14 @@ def place_patch(
     on[:] = False
     heights[:] = 0.0
     state.counts[tool] = 0
-    i, j = _cubic(tick, x, y, state.cubics[0])
-    if i < 0 or not _stand(tick, i, j, x, y, state.cubics[0], frame):
+    if not stand(tick, x, y, state.cubics[0], frame):
         return False
     origin, along, across, normal = frame[0], frame[1], frame[2], frame[3]
     radius = 0.0
     for a in range(points):
         radius = max(radius, abs(tick.offsets[tool, a]))
     most = ROUND * sqrt(2.0) * radius
+    i, j = _cubic(tick, x, y, state.cubics[0])
     low_i, high_i, low_j, high_j = i, i, j, j
     height = of_row = 0.0
     for point in range(points * points):
@@ -107,31 +147,6 @@ def place_patch(
         low_i, high_i = min(low_i, i), max(high_i, i)
         low_j, high_j = min(low_j, j), max(high_j, j)
     _gather(tick, state, tool, low_i, high_i - low_i + 4, low_j, high_j - low_j + 4)
-    return True
-
-
-@njit(cache=True)
-def _stand(
-    tick: MeshTick, i: int, j: int, x: float, y: float, cubic: FloatArray, frame: FloatArray
-) -> bool:  # pragma: no cover - compiled
-    """Write a place's frame: where it is, the tangent that goes along x, the other one, the normal."""
-    origin, along, across, normal = frame[0], frame[1], frame[2], frame[3]
-    origin[0], origin[1], origin[2] = x, y, _height(tick, i, j, cubic)
-    normal[:] = 0.0
-    for a in range(4):
-        site = tick.number[i + a, j]
-        for b in range(4):
-            weight = cubic[a] * cubic[4 + b]
-            for k in range(3):
-                normal[k] += weight * tick.normals[site + b, k]
-    size = sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
-    for k in range(3):
-        normal[k] /= size
-    if normal[2] < STEEPEST:
-        return False
-    level = sqrt(1.0 - normal[0] ** 2)
-    along[0], along[1], along[2] = level, -normal[0] * normal[1] / level, -normal[0] * normal[2] / level
-    across[0], across[1], across[2] = 0.0, normal[2] / level, -normal[1] / level
     return True
 
 
