@@ -201,7 +201,7 @@ def site_weights(grid: PressGrid, modes: SurfaceModes, place: np.ndarray) -> tup
     state = at_rest(tick)
     assert place_patch(tick, state, 0, *place.tolist())
     count = state.counts[0]
-    return state.sites[0, :count], state.weights[0, :count, 0]
+    return state.sites[0, :count], state.weights[0, :count]
 
 
 def at_rest_as(model: WaveMesh, grid: PressGrid, modes: SurfaceModes, places: np.ndarray) -> None:
@@ -255,7 +255,7 @@ def jumps(grid: PressGrid, modes: SurfaceModes) -> None:
         assert place_patch(tick, state, 0, x, y)
         push_each_other(tick, state, 0, 0, own)
         sites = state.sites[0, : state.counts[0]]
-        weights = state.weights[0, : state.counts[0], 0]
+        weights = state.weights[0, : state.counts[0]]
         shapes = weights @ modes.shapes[sites]
         static = shapes @ (shapes / modes.squares) + weights @ modes.rest[np.ix_(sites, sites)] @ weights
         found.append([own[0, 0], static, state.frames[0, 0, 2], *state.frames[0, 3]])

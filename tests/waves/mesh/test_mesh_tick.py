@@ -82,7 +82,7 @@ def test_a_press_between_sites_is_that_of_the_mesh_at_rest_and_in_motion(name, x
     ours, theirs = np.array(found).T
     # Both leave out what lies beyond their modes, and not the same.
     assert np.abs(ours - theirs).max() < 0.025 * theirs.max()
-    sites, weights = state.sites[0, : state.counts[0]], state.weights[0, : state.counts[0], 0]
+    sites, weights = state.sites[0, : state.counts[0]], state.weights[0, : state.counts[0]]
     static = weights @ live.modes.static[np.ix_(sites, sites)] @ weights
     assert static == pytest.approx(nodal @ live.model.field(live.model.static(load)).ravel(), rel=0.02)
 
