@@ -1,9 +1,9 @@
 """Knots of a patch: the few places where the surface is looked at for all of a patch's points.
 
-Sites lie half a window apart, and the surface between them is smooth: over a patch narrower than that it is, to 1e-3,
-the polynomial through three places along each tangent (Lagrange). A patch reads, presses and finds its heights at
-these, with weights L from knots to points: sunk = L (sunk at knots), forces at knots = L^T p. As L stands on both
-sides, W = L W_knots L^T is as symmetric and as positive as W_knots is.
+Sites lie half a window apart, and the surface between them is smooth: over a patch as narrow it is nearly the
+polynomial through a few places along each tangent (Lagrange). A patch reads, presses and finds its heights at these,
+with weights L from knots to points: sunk = L (sunk at knots), forces at knots = L^T p. As L stands on both sides,
+W = L W_knots L^T is as symmetric and as positive as W_knots is. `bench/organ_tick.py` prints what it costs in accuracy.
 """
 
 from __future__ import annotations
@@ -14,9 +14,7 @@ import numpy as np
 
 from trocar.model import FloatArray
 
-GAP = (
-    0.45  # of the sites' spacing between knots: error of a parabola 1e-3 of the deepest (bench/organ_tick.py)
-)
+GAP = 0.35  # of the sites' spacing between knots
 _FEWEST, _MOST = 3, 5  # along each tangent; of more the polynomial would swing between them
 
 

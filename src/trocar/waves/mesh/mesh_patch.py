@@ -20,15 +20,15 @@ from trocar.waves.mesh.wave_mesh import STEEPEST
 
 BoolArray = npt.NDArray[np.bool_]
 
-_DROPS = 8  # onto the surface along the normal at most, from a neighbour's height; seen: 2 to 4
-_NEAR = 1e-9  # [m] of the surface: then a knot is on it
+_DROPS = 8  # onto the surface along the normal at most, from a neighbour's height
+_NEAR = 1e-7  # [m] a drop after which a knot is on the surface: the next would be smaller by the slope between them
 
 
 @njit(cache=True)
 def _cubic(
     cells: BoolArray, u: float, v: float, out: FloatArray
 ) -> tuple[int, int]:  # pragma: no cover - compiled
-    """Write weights of four columns and four rows about a place of the grid; return the first, or -1 off the surface."""
+    """Write weights of four columns and four rows about a place of the grid; return the first, or -1 beside it."""
     columns, rows = cells.shape
     if not (0.0 <= u < columns and 0.0 <= v < rows):
         return -1, -1

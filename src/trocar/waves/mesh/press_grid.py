@@ -102,7 +102,16 @@ def press_grid(
         near = cKDTree(places).sparse_distance_matrix(tree, _REACH * window, output_type="coo_matrix")
         shares = rule.areas[near.col] * np.exp(-((near.data / window) ** 2))
         table = sp.csr_array((shares, (near.row, near.col)), shape=near.shape)
-        return sp.csr_array(table.multiply(1.0 / table.sum(axis=1)[:, None]))
+        total = table.sum(axis=1)
+        if not (total > 0).all():
+            raise InputError(
+                "press grid: window",
+                "a length that reaches from every site to places where integrals over the surface are taken, "
+                f"{_REACH:g} windows away at most",
+                window,
+                "take a wider window, or smaller elements",
+            )
+        return sp.csr_array(table.multiply(1.0 / total[:, None]))
 
     up = np.zeros(len(corners), dtype=bool)
     up[over] = _unit(weighted(np.column_stack([corners, heights])[over]) @ rule.normals)[:, 2] > STEEPEST
