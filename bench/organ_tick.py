@@ -5,6 +5,8 @@ Run: python bench/organ_tick.py [--spacing-mm 12.5] [--modes 60] [--window-mm W]
   what the sites of the surface cost to set up, in seconds of processor time and MiB;
   how far the static answer at places between sites, drawn at random, lies from `WaveMesh.static`'s, and that to a press
   that appears within a tick from `WaveMesh.step`'s, for a Gaussian press as wide as the window, read likewise;
+  how far W of a tick, the depth below an even pressure and the heights of patches at random, found at knots, lie from
+  those found at every point;
   what a patch's answer, its height and its normal change by in steps of 0.01 mm, at most;
   the time of a tick: two balls of 4 mm, 2 mm deep, on circles at 60 mm/s; both patches are placed, the modes go on and
   are read, W is built with the near field, forces are solved for and held. Beside it a fixed compiled sum, so that
@@ -43,6 +45,7 @@ RADIUS, DEPTH, SPACING, WIDTH = 2e-3, 2e-3, 0.2, 0.4  # of a ball [m]; of its po
 CLOSE = np.array([[0.125, 0.05], [0.14, 0.065]])  # [m]
 CENTRES, CIRCLE, SPEED = np.array([[0.10, 0.045], [0.15, 0.06]]), 0.012, 0.06  # [m], [m/s]
 PRODUCTS = 20_000  # of the fixed sum
+KNOTTED, TRIED = ([0.05, 0.03], [0.17, 0.08]), 60  # [m] where patches are compared, and how many
 TURNS, AGREED = 100, 1e-12  # of patches that push each other in, as in a scene
 
 
@@ -157,6 +160,8 @@ def main() -> None:
         at_rest_as(model, grid, modes, places)
         moving_as(model, grid, modes, places[:2])
     jumps(grid, modes)
+    for points in (7, 5):
+        knotted(grid, modes, points)
     for points in (7, 5):
         for centres in (CENTRES, CLOSE):
             speed(grid, modes, mesh.materials[0], points, centres, arguments.ticks)
@@ -274,16 +279,47 @@ def jumps(grid: PressGrid, modes: SurfaceModes) -> None:
     )
 
 
+def patches(points: int) -> tuple[float, np.ndarray]:
+    """Return how far apart a ball's points lie [m], and the offsets of those of two balls [m]."""
+    spacing = SPACING * RADIUS * 7 / points
+    return spacing, np.tile(spacing * (np.arange(points) - (points - 1) / 2), (2, 1))
+
+
+def knotted(grid: PressGrid, modes: SurfaceModes, points: int) -> None:
+    """Compare a patch's knots with looking at the mesh at every point."""
+    tick = make_mesh_tick(modes, grid, DT, offsets=patches(points)[1])
+    exact = tick._replace(knots=tick.offsets, onto=np.zeros((2, 0, 0)))
+    pads, apart = points * points, []
+    states, answers = (at_rest(tick), at_rest(exact)), np.zeros((2, pads, pads))
+    for x, y in np.random.default_rng(1).uniform(*KNOTTED, (TRIED, 2)).tolist():
+        for its, state, answer in zip((tick, exact), states, answers, strict=True):
+            assert place_patch(its, state, 0, x, y)
+            push_each_other(its, state, 0, 0, answer)
+        ours, theirs = answers
+        apart.append(
+            [
+                100 * np.abs(ours - theirs).max() / theirs.max(),
+                100 * abs(ours.mean() / theirs.mean() - 1),
+                1e6 * np.abs(states[0].heights - states[1].heights).max(),
+            ]
+        )
+    middle, most = np.median(apart, axis=0), np.max(apart, axis=0)
+    print(
+        f"  {points} x {points} points from {tick.knots.shape[1]} x {tick.knots.shape[1]} knots: an entry of W "
+        f"{middle[0]:.2f} % of the largest apart, {most[0]:.2f} % at most; depth below an even pressure "
+        f"{middle[1]:.3f} %, {most[1]:.3f} % at most; heights {middle[2]:.1f} um, {most[2]:.1f} um at most"
+    )
+
+
 def speed(
     grid: PressGrid, modes: SurfaceModes, layer: object, points: int, centres: np.ndarray, ticks: int
 ) -> None:
     """Print how long a tick takes."""
-    steps = np.arange(points) - (points - 1) / 2
-    spacing = SPACING * RADIUS * 7 / points
-    tick = make_mesh_tick(modes, grid, DT, offsets=np.tile(spacing * steps, (2, 1)))
-    at = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
+    spacing, offsets = patches(points)
+    tick = make_mesh_tick(modes, grid, DT, offsets=offsets)
+    at = np.stack(np.meshgrid(offsets[0], offsets[0], indexing="ij"), axis=-1).reshape(-1, 2)
     field = near_field(half_space(layer), pad=WIDTH * spacing, window=grid.window, reach=7 * grid.window)
-    near = field.at(spacing * np.linalg.norm(at[:, None] - at[None], axis=2))[..., 0]
+    near = field.at(np.linalg.norm(at[:, None] - at[None], axis=2))[..., 0]
     state, touch = at_rest(tick), touch_of(np.ascontiguousarray(near))
     turn = SPEED / CIRCLE * DT * np.arange(ticks)
     circle = CIRCLE * np.stack([np.cos(turn), np.sin(turn)], axis=1)
@@ -295,9 +331,9 @@ def speed(
     for number in range(ticks):
         began = time.perf_counter()
         well = ticked(tick, state, touch, places[number])
-        between = time.perf_counter()
+        ended = time.perf_counter()
         reference(PRODUCTS)
-        times[number], still[number] = between - began, time.perf_counter() - between
+        times[number], still[number] = ended - began, time.perf_counter() - ended
         force[number] = touch.forces[0].sum()
         assert well
     (median, high), (quiet, loud) = (1e6 * np.percentile(each, (50, 99)) for each in (times, still))
