@@ -3,6 +3,7 @@
 Run: python bench/organ_tick.py [--spacing-mm 12.5] [--modes 60] [--window-mm W] [--places 6] [--ticks 20000]. Prints
 
   what the sites of the surface cost to set up, in seconds of processor time and MiB;
+  what modes that are fast do within a tick, and what would change if they were left to follow at once;
   how far the static answer at places between sites, drawn at random, lies from `WaveMesh.static`'s, and that to a press
   that appears within a tick from `WaveMesh.step`'s, for a Gaussian press as wide as the window, read likewise;
   how far W of a tick, the depth below an even pressure and the heights of patches at random, found at knots, lie from
@@ -19,6 +20,7 @@ import argparse
 import resource
 import tempfile
 import time
+from dataclasses import replace
 from math import sqrt
 from typing import NamedTuple
 
@@ -45,6 +47,7 @@ RADIUS, DEPTH, SPACING, WIDTH = 2e-3, 2e-3, 0.2, 0.4  # of a ball [m]; of its po
 CLOSE = np.array([[0.125, 0.05], [0.14, 0.065]])  # [m]
 CENTRES, CIRCLE, SPEED = np.array([[0.10, 0.045], [0.15, 0.06]]), 0.012, 0.06  # [m], [m/s]
 PRODUCTS = 20_000  # of the fixed sum
+HURRIED = (150, 200)  # [Hz]
 KNOTTED, TRIED = ([0.05, 0.03], [0.17, 0.08]), 60  # [m] where patches are compared, and how many
 TURNS, AGREED = 100, 1e-12  # of patches that push each other in, as in a scene
 
@@ -156,6 +159,7 @@ def main() -> None:
         modes = timed("their modes", lambda: surface_modes(model, grid))
         timed("tick", lambda: make_mesh_tick(modes, grid, DT, offsets=np.zeros((1, 1))))
         described(grid, modes)
+        hurried(grid, modes)
         places = chosen(model, grid, arguments.places)
         at_rest_as(model, grid, modes, places)
         moving_as(model, grid, modes, places[:2])
@@ -178,6 +182,28 @@ def described(grid: PressGrid, modes: SurfaceModes) -> None:
         f"  left to follow at once: {100 * np.trace(modes.rest) / np.trace(modes.static):.2f} % on the mean, "
         f"{100 * np.diag(modes.rest).max() / np.diag(modes.static).max():.2f} % at most"
     )
+
+
+def hurried(grid: PressGrid, modes: SurfaceModes) -> None:
+    """Print what fast modes do within a tick, and what it would change if they followed at once."""
+
+    def answer(some: SurfaceModes) -> np.ndarray:
+        return np.diag(make_mesh_tick(some, grid, DT, offsets=np.zeros((1, 1))).at_once)
+
+    def part(kept: np.ndarray, rest: np.ndarray) -> SurfaceModes:
+        return replace(modes, squares=modes.squares[kept], shapes=modes.shapes[:, kept], rest=rest)
+
+    fastest = part(modes.squares == modes.squares.max(), np.zeros_like(modes.rest))
+    whole, reached = answer(modes), answer(fastest).sum() / np.trace(fastest.static)
+    print(f"  within a tick the fastest mode gets to {reached:.2f} of its static answer")
+    for hertz in HURRIED:
+        kept = modes.squares < (2 * np.pi * hertz) ** 2
+        gone = part(~kept, np.zeros_like(modes.rest)).static
+        more = answer(part(kept, modes.rest + gone)) / whole - 1
+        print(
+            f"  with the {(~kept).sum()} above {hertz} Hz at once W of a site would grow by "
+            f"{100 * np.median(more):.1f} %, {100 * more.max():.0f} % at most"
+        )
 
 
 def load_at(grid: PressGrid, place: np.ndarray) -> Press:

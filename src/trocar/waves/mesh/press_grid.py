@@ -102,7 +102,7 @@ def press_grid(
         near = cKDTree(places).sparse_distance_matrix(tree, _REACH * window, output_type="coo_matrix")
         shares = rule.areas[near.col] * np.exp(-((near.data / window) ** 2))
         table = sp.csr_array((shares, (near.row, near.col)), shape=near.shape)
-        total = table.sum(axis=1)
+        total: FloatArray = np.asarray(table.sum(axis=1))
         if not (total > 0).all():
             raise InputError(
                 "press grid: window",
