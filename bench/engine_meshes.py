@@ -121,7 +121,7 @@ class Tetrahedra(Lattice):
 
     @cached_property
     def tetrahedra(self) -> IntArray:
-        """Nodes of each, shape (elements, 4), the first three counter-clockwise as the fourth sees them not."""
+        """Nodes of each, shape (elements, 4); from the fourth the first three are seen clockwise."""
         corners = np.stack(np.meshgrid(*(np.arange(count) for count in self.shape), indexing="ij")).reshape(
             3, -1
         )

@@ -3,8 +3,11 @@
 Run: python bench/organ_tick.py [--spacing-mm 12.5] [--modes 60] [--window-mm W] [--places 6] [--ticks 20000]. Prints
 
   what the sites of the surface cost to set up, in seconds of processor time and MiB;
+  what modes that are fast do within a tick, and what would change if they were left to follow at once;
   how far the static answer at places between sites, drawn at random, lies from `WaveMesh.static`'s, and that to a press
   that appears within a tick from `WaveMesh.step`'s, for a Gaussian press as wide as the window, read likewise;
+  how far W of a tick, the depth below an even pressure and the heights of patches at random, found at knots, lie from
+  those found at every point;
   what a patch's answer, its height and its normal change by in steps of 0.01 mm, at most;
   the time of a tick: two balls of 4 mm, 2 mm deep, on circles at 60 mm/s; both patches are placed, the modes go on and
   are read, W is built with the near field, forces are solved for and held. Beside it a fixed compiled sum, so that
@@ -17,6 +20,7 @@ import argparse
 import resource
 import tempfile
 import time
+from dataclasses import replace
 from math import sqrt
 from typing import NamedTuple
 
@@ -43,6 +47,8 @@ RADIUS, DEPTH, SPACING, WIDTH = 2e-3, 2e-3, 0.2, 0.4  # of a ball [m]; of its po
 CLOSE = np.array([[0.125, 0.05], [0.14, 0.065]])  # [m]
 CENTRES, CIRCLE, SPEED = np.array([[0.10, 0.045], [0.15, 0.06]]), 0.012, 0.06  # [m], [m/s]
 PRODUCTS = 20_000  # of the fixed sum
+HURRIED = (150, 200)  # [Hz]
+KNOTTED, TRIED = ([0.05, 0.03], [0.17, 0.08]), 60  # [m] where patches are compared, and how many
 TURNS, AGREED = 100, 1e-12  # of patches that push each other in, as in a scene
 
 
@@ -153,10 +159,13 @@ def main() -> None:
         modes = timed("their modes", lambda: surface_modes(model, grid))
         timed("tick", lambda: make_mesh_tick(modes, grid, DT, offsets=np.zeros((1, 1))))
         described(grid, modes)
+        hurried(grid, modes)
         places = chosen(model, grid, arguments.places)
         at_rest_as(model, grid, modes, places)
         moving_as(model, grid, modes, places[:2])
     jumps(grid, modes)
+    for points in (7, 5):
+        knotted(grid, modes, points)
     for points in (7, 5):
         for centres in (CENTRES, CLOSE):
             speed(grid, modes, mesh.materials[0], points, centres, arguments.ticks)
@@ -173,6 +182,28 @@ def described(grid: PressGrid, modes: SurfaceModes) -> None:
         f"  left to follow at once: {100 * np.trace(modes.rest) / np.trace(modes.static):.2f} % on the mean, "
         f"{100 * np.diag(modes.rest).max() / np.diag(modes.static).max():.2f} % at most"
     )
+
+
+def hurried(grid: PressGrid, modes: SurfaceModes) -> None:
+    """Print what fast modes do within a tick, and what it would change if they followed at once."""
+
+    def answer(some: SurfaceModes) -> np.ndarray:
+        return np.diag(make_mesh_tick(some, grid, DT, offsets=np.zeros((1, 1))).at_once)
+
+    def part(kept: np.ndarray, rest: np.ndarray) -> SurfaceModes:
+        return replace(modes, squares=modes.squares[kept], shapes=modes.shapes[:, kept], rest=rest)
+
+    fastest = part(modes.squares == modes.squares.max(), np.zeros_like(modes.rest))
+    whole, reached = answer(modes), answer(fastest).sum() / np.trace(fastest.static)
+    print(f"  within a tick the fastest mode gets to {reached:.2f} of its static answer")
+    for hertz in HURRIED:
+        kept = modes.squares < (2 * np.pi * hertz) ** 2
+        gone = part(~kept, np.zeros_like(modes.rest)).static
+        more = answer(part(kept, modes.rest + gone)) / whole - 1
+        print(
+            f"  with the {(~kept).sum()} above {hertz} Hz at once W of a site would grow by "
+            f"{100 * np.median(more):.1f} %, {100 * more.max():.0f} % at most"
+        )
 
 
 def load_at(grid: PressGrid, place: np.ndarray) -> Press:
@@ -201,7 +232,7 @@ def site_weights(grid: PressGrid, modes: SurfaceModes, place: np.ndarray) -> tup
     state = at_rest(tick)
     assert place_patch(tick, state, 0, *place.tolist())
     count = state.counts[0]
-    return state.sites[0, :count], state.weights[0, :count, 0]
+    return state.sites[0, :count], state.weights[0, :count]
 
 
 def at_rest_as(model: WaveMesh, grid: PressGrid, modes: SurfaceModes, places: np.ndarray) -> None:
@@ -255,7 +286,7 @@ def jumps(grid: PressGrid, modes: SurfaceModes) -> None:
         assert place_patch(tick, state, 0, x, y)
         push_each_other(tick, state, 0, 0, own)
         sites = state.sites[0, : state.counts[0]]
-        weights = state.weights[0, : state.counts[0], 0]
+        weights = state.weights[0, : state.counts[0]]
         shapes = weights @ modes.shapes[sites]
         static = shapes @ (shapes / modes.squares) + weights @ modes.rest[np.ix_(sites, sites)] @ weights
         found.append([own[0, 0], static, state.frames[0, 0, 2], *state.frames[0, 3]])
@@ -274,16 +305,47 @@ def jumps(grid: PressGrid, modes: SurfaceModes) -> None:
     )
 
 
+def patches(points: int) -> tuple[float, np.ndarray]:
+    """Return how far apart a ball's points lie [m], and the offsets of those of two balls [m]."""
+    spacing = SPACING * RADIUS * 7 / points
+    return spacing, np.tile(spacing * (np.arange(points) - (points - 1) / 2), (2, 1))
+
+
+def knotted(grid: PressGrid, modes: SurfaceModes, points: int) -> None:
+    """Compare a patch's knots with looking at the mesh at every point."""
+    tick = make_mesh_tick(modes, grid, DT, offsets=patches(points)[1])
+    exact = tick._replace(knots=tick.offsets, onto=np.zeros((2, 0, 0)))
+    pads, apart = points * points, []
+    states, answers = (at_rest(tick), at_rest(exact)), np.zeros((2, pads, pads))
+    for x, y in np.random.default_rng(1).uniform(*KNOTTED, (TRIED, 2)).tolist():
+        for its, state, answer in zip((tick, exact), states, answers, strict=True):
+            assert place_patch(its, state, 0, x, y)
+            push_each_other(its, state, 0, 0, answer)
+        ours, theirs = answers
+        apart.append(
+            [
+                100 * np.abs(ours - theirs).max() / theirs.max(),
+                100 * abs(ours.mean() / theirs.mean() - 1),
+                1e6 * np.abs(states[0].heights - states[1].heights).max(),
+            ]
+        )
+    middle, most = np.median(apart, axis=0), np.max(apart, axis=0)
+    print(
+        f"  {points} x {points} points from {tick.knots.shape[1]} x {tick.knots.shape[1]} knots: an entry of W "
+        f"{middle[0]:.2f} % of the largest apart, {most[0]:.2f} % at most; depth below an even pressure "
+        f"{middle[1]:.3f} %, {most[1]:.3f} % at most; heights {middle[2]:.1f} um, {most[2]:.1f} um at most"
+    )
+
+
 def speed(
     grid: PressGrid, modes: SurfaceModes, layer: object, points: int, centres: np.ndarray, ticks: int
 ) -> None:
     """Print how long a tick takes."""
-    steps = np.arange(points) - (points - 1) / 2
-    spacing = SPACING * RADIUS * 7 / points
-    tick = make_mesh_tick(modes, grid, DT, offsets=np.tile(spacing * steps, (2, 1)))
-    at = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
+    spacing, offsets = patches(points)
+    tick = make_mesh_tick(modes, grid, DT, offsets=offsets)
+    at = np.stack(np.meshgrid(offsets[0], offsets[0], indexing="ij"), axis=-1).reshape(-1, 2)
     field = near_field(half_space(layer), pad=WIDTH * spacing, window=grid.window, reach=7 * grid.window)
-    near = field.at(spacing * np.linalg.norm(at[:, None] - at[None], axis=2))[..., 0]
+    near = field.at(np.linalg.norm(at[:, None] - at[None], axis=2))[..., 0]
     state, touch = at_rest(tick), touch_of(np.ascontiguousarray(near))
     turn = SPEED / CIRCLE * DT * np.arange(ticks)
     circle = CIRCLE * np.stack([np.cos(turn), np.sin(turn)], axis=1)
@@ -295,9 +357,9 @@ def speed(
     for number in range(ticks):
         began = time.perf_counter()
         well = ticked(tick, state, touch, places[number])
-        between = time.perf_counter()
+        ended = time.perf_counter()
         reference(PRODUCTS)
-        times[number], still[number] = between - began, time.perf_counter() - between
+        times[number], still[number] = ended - began, time.perf_counter() - ended
         force[number] = touch.forces[0].sum()
         assert well
     (median, high), (quiet, loud) = (1e6 * np.percentile(each, (50, 99)) for each in (times, still))

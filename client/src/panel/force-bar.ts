@@ -5,6 +5,7 @@ import { norm } from "../vector";
 import { make, say } from "./element";
 
 const SPAN = 2; // full bar, in linear ranges: the mark stands in the middle
+const LEAST_SPAN = 0.4; // of a bar where the linear range ends early [N]: what hands do must still be seen
 
 export class ForceBar {
   readonly element = make("div", "bar");
@@ -13,6 +14,7 @@ export class ForceBar {
   private readonly fill = make("div", "fill");
   private readonly band = make("div", "band");
   private readonly said = make("p", "said");
+  private readonly full: number; // [N]
   private least = 0; // [N]
   private most = 0; // [N]; 0 where no force is asked for
   private shown: readonly [force: number, doing: string] = [0, ""];
@@ -22,14 +24,17 @@ export class ForceBar {
     title: string,
     private readonly linear: number,
   ) {
+    this.full = Math.max(SPAN * linear, LEAST_SPAN);
     const head = make("div", "bar-head");
     head.append(make("span", "", title), this.value);
     this.track.setAttribute("role", "meter");
     this.track.setAttribute("aria-label", `Force, ${title}`);
     this.track.setAttribute("aria-valuemin", "0");
-    this.track.setAttribute("aria-valuemax", (SPAN * linear).toFixed(3));
+    this.track.setAttribute("aria-valuemax", this.full.toFixed(3));
     this.band.hidden = true;
-    this.track.append(this.fill, this.band, make("div", "mark"));
+    const mark = make("div", "mark");
+    mark.style.left = `${((100 * linear) / this.full).toFixed(2)}%`;
+    this.track.append(this.fill, this.band, mark);
     this.element.append(head, this.track, this.said);
     this.show(0, "");
   }
@@ -39,7 +44,7 @@ export class ForceBar {
     if (least === this.least && most === this.most) return;
     [this.least, this.most] = [least, most];
     this.band.hidden = most === 0;
-    const share = (force: number): string => `${Math.min((100 * force) / (SPAN * this.linear), 100).toFixed(2)}%`;
+    const share = (force: number): string => `${Math.min((100 * force) / (this.full), 100).toFixed(2)}%`;
     this.band.style.left = share(least);
     this.band.style.right = `calc(100% - ${share(most)})`;
     this.show(...this.shown); // no frame may come that would
@@ -61,8 +66,8 @@ export class ForceBar {
     say(this.said, (beyond ? `${doing}, beyond the linear range` : doing) + asked);
     this.element.dataset["asked"] = !this.most ? "" : force > this.most ? "over" : force < this.least ? "under" : "within";
     this.element.dataset["beyond"] = String(beyond);
-    this.fill.style.transform = `scaleX(${Math.min(force / (SPAN * this.linear), 1).toFixed(3)})`;
-    this.track.setAttribute("aria-valuenow", Math.min(force, SPAN * this.linear).toFixed(3));
+    this.fill.style.transform = `scaleX(${Math.min(force / (this.full), 1).toFixed(3)})`;
+    this.track.setAttribute("aria-valuenow", Math.min(force, this.full).toFixed(3));
     this.track.setAttribute("aria-valuetext", beyond ? `${text}, beyond the linear range` : text);
   }
 }

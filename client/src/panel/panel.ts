@@ -21,7 +21,7 @@ export class Panel {
   greet(hello: Hello): void {
     const layers = hello.tissue.layers.map((layer) => layer.name).join(", ");
     say(byId("tissue", HTMLElement), `${hello.tissue.name}: ${layers}`);
-    say(byId("linear", HTMLElement), `The mark is the end of the linear range, ${hello.linear_force_n.toFixed(2)} N.`);
+    say(byId("linear", HTMLElement), `The mark is the end of the linear range, ${hello.linear_force_n.toPrecision(2)} N.`);
     this.bars = hello.instruments.map((shape) => new ForceBar(`${shape.name}, ${shape.tip}`, hello.linear_force_n));
     byId("bars", HTMLDivElement).replaceChildren(...this.bars.map((bar) => bar.element));
     const watching = hello.steered_by === "trainer";

@@ -209,7 +209,7 @@ def _organ_stage(mesh: str, tissue: str, ports: str, reading: dict[str, Any], st
     def told(done: int, total: int) -> None:
         status.update(f"finding how the surface answers, {100 * done // total} %; kept for the next time ...")
 
-    return organ_stage(live_organ(organ, progress=told), ports=ports)
+    return organ_stage(live_organ(organ, name=Path(mesh).stem, progress=told), ports=ports)
 
 
 def _nodule(text: str) -> Nodule:

@@ -148,17 +148,17 @@ def _forces_of(
     for r in range(count):
         forces[order[r]] = below[order[r]]
     for r in range(count):
-        total = forces[order[r]]
-        row = factor[r]
-        for k in range(r):
-            total -= row[k] * forces[order[k]]
-        forces[order[r]] = total / row[r]
-    for r in range(count - 1, -1, -1):
         row = factor[r]
         forces[order[r]] /= row[r]
         done = forces[order[r]]
-        for k in range(r):
+        for k in range(r + 1, count):
             forces[order[k]] -= row[k] * done
+    for r in range(count - 1, -1, -1):
+        total = forces[order[r]]
+        row = factor[r]
+        for k in range(count - 1, r, -1):
+            total -= row[k] * forces[order[k]]
+        forces[order[r]] = total / row[r]
     return True
 
 
@@ -166,14 +166,31 @@ def _forces_of(
 def _factored(
     compliance: FloatArray, factor: FloatArray, order: IntArray, count: int
 ) -> bool:  # pragma: no cover - compiled
-    """Write Cholesky's factor of W among the first pads of an order; False where W is not positive definite."""
+    """Write Cholesky's factor U, W = U^T U, of the first pads of an order; False where W is not positive definite.
+
+    Row after row, less four rows above at once: neighbours in memory, so that a processor takes several together.
+    """
     for r in range(count):
-        row = factor[r]
-        pads = compliance[order[r]]
-        for c in range(r):
-            row[c] = (pads[order[c]] - _dot(row, factor[c], c)) / factor[c, c]
-        total = pads[order[r]] - _dot(row, row, r)
-        if not total > 0.0:
+        row, pads = factor[r, r:count], compliance[order[r]]
+        size = len(row)
+        for c in range(size):
+            row[c] = pads[order[r + c]]
+        whole = r - r % 4
+        for k in range(0, whole, 4):
+            a, b = factor[k, r:count], factor[k + 1, r:count]
+            d, e = factor[k + 2, r:count], factor[k + 3, r:count]
+            of_a, of_b, of_d, of_e = a[0], b[0], d[0], e[0]
+            for c in range(size):
+                row[c] -= (of_a * a[c] + of_b * b[c]) + (of_d * d[c] + of_e * e[c])
+        for k in range(whole, r):
+            above = factor[k, r:count]
+            share = above[0]
+            for c in range(size):
+                row[c] -= share * above[c]
+        if not row[0] > 0.0:
             return False
-        row[r] = sqrt(total)
+        row[0] = sqrt(row[0])
+        finer = 1.0 / row[0]
+        for c in range(1, size):
+            row[c] *= finer
     return True

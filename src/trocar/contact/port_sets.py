@@ -16,7 +16,7 @@ from __future__ import annotations
 import os
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from math import dist
 from pathlib import Path
@@ -93,6 +93,33 @@ def instruments_through(ports: str, size: tuple[float, float]) -> tuple[Instrume
     close = get_close_matches(ports, names, n=1)
     advice = f"did you mean {close[0]}?" if close else ""
     raise InputError("ports", f"one of {', '.join(names)}, or a file that ends with .toml", ports, advice)
+
+
+def instruments_over(
+    ports: str, size: tuple[float, float], usual: tuple[float, float]
+) -> tuple[Instrument, Instrument]:
+    """Return the instruments of a set by name, as over a block of usual size in the middle of another; or of a file.
+
+    Args:
+        ports: as in `instruments_through`; places in a file are those of the other block.
+        size: sides of the other block [m].
+        usual: sides of the usual one [m].
+
+    Raises:
+        InputError: there is no such set or file, or something in the file is not possible.
+    """
+    if ports != USUAL and ports not in PORT_SETS:
+        return instruments_through(ports, size)
+    dx, dy = (0.5 * (side - one) for side, one in zip(size, usual, strict=True))
+
+    def moved(place: Vector) -> Vector:
+        return place[0] + dx, place[1] + dy, place[2]
+
+    left, right = (
+        replace(one, port=moved(one.port), handle=moved(one.handle))
+        for one in instruments_through(ports, usual)
+    )
+    return left, right
 
 
 def read_ports(path: Path, size: tuple[float, float]) -> tuple[Instrument, Instrument]:

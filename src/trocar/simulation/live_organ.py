@@ -20,12 +20,17 @@ MODES = 60  # the lowest; what they leave of a press its site's own modes carry
 
 
 def live_organ(
-    mesh: SolidMesh, *, cache: BasisCache | None = None, progress: Callable[[int, int], None] | None = None
+    mesh: SolidMesh,
+    *,
+    name: str = "organ",
+    cache: BasisCache | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Organ:
     """Return an organ that a scene can be made of; what takes long is kept for the next time.
 
     Args:
         mesh: of it.
+        name: what it is called.
         cache: where; None takes the usual folder.
         progress: told how many systems of equations are solved, and of how many.
 
@@ -34,7 +39,7 @@ def live_organ(
         SolverError: it is not held.
     """
     model = WaveMesh(mesh, modes=MODES, cache=BasisCache() if cache is None else cache)
-    return Organ.of(model, progress=progress)
+    return Organ.of(model, name=name, progress=progress)
 
 
 def organ_mesh(

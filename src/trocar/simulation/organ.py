@@ -32,18 +32,23 @@ class Organ:
         model: its waves.
         grid: the sites of its surface that tools press.
         modes: that answer those.
+        name: what it is called.
     """
 
     model: WaveMesh
     grid: PressGrid
     modes: SurfaceModes
+    name: str = "organ"
 
     @classmethod
-    def of(cls, model: WaveMesh, *, progress: Callable[[int, int], None] | None = None) -> Self:
+    def of(
+        cls, model: WaveMesh, *, name: str = "organ", progress: Callable[[int, int], None] | None = None
+    ) -> Self:
         """Prepare a mesh; the model's cache is looked in first.
 
         Args:
             model: its first surface is pressed.
+            name: what it is called.
             progress: told how many systems of equations are solved, and of how many.
 
         Raises:
@@ -51,7 +56,7 @@ class Organ:
             SolverError: it is not held.
         """
         grid = press_grid(model.elements, model.layer_names[0])
-        return cls(model, grid, surface_modes(model, grid, progress=progress))
+        return cls(model, grid, surface_modes(model, grid, progress=progress), name)
 
     @property
     def size(self) -> tuple[float, float]:
@@ -75,7 +80,7 @@ class Organ:
     @cached_property
     def block(self) -> Tissue:
         """A flat block of the surface's material as thick as the organ: what the surface is like close by."""
-        return Tissue(layers=(replace(self.skin, thickness=self.thickness),), name=self.skin.name)
+        return Tissue(layers=(replace(self.skin, thickness=self.thickness),), name=self.name)
 
 
 def make_organ_scene(

@@ -45,7 +45,6 @@ class OrganSurface:
         nodes = np.stack(np.meshgrid(self._x, self._y, indexing="xy"), axis=-1).reshape(-1, 2)
         self._table: sp.csr_array = cubic_table(organ.grid, nodes)
         rest = organ.model.elements.heights(organ.grid.surface, nodes)
-        rest[np.diff(self._table.indptr) == 0] = np.nan  # too steep to be pressed
         self._places = np.column_stack([nodes, rest])
         normals = self._table @ organ.grid.normals
         size = np.linalg.norm(normals, axis=1, keepdims=True)

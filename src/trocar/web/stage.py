@@ -9,7 +9,7 @@ from math import isfinite
 import numpy as np
 
 from trocar.contact.instrument import Instrument, Vector
-from trocar.contact.port_sets import instruments_through
+from trocar.contact.port_sets import instruments_over, instruments_through
 from trocar.errors import InputError
 from trocar.model import FloatArray, Press, Support
 from trocar.simulation import (
@@ -221,12 +221,13 @@ def organ_stage(organ: Organ, *, ports: str = "usual") -> Stage:
 
     Args:
         organ: the tissue.
-        ports: name of a port set, or a file (`contact.port_sets`); they are about the middle of the organ's rectangle.
+        ports: name of a port set, about the middle of the organ's rectangle as about that of the usual block; or a file
+            (`contact.port_sets`).
 
     Raises:
         InputError: the ports are not there, or do not go together.
     """
-    instruments = instruments_through(ports, organ.size)
+    instruments = instruments_over(ports, organ.size, LIVE_SIZE)
     nodes_x, nodes_y = (min(max(round(side / _NODE) + 1, GRID[0]), _MOST_NODES) for side in organ.size)
     return Stage(
         tissue=organ.block,

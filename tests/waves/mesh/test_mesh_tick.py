@@ -17,6 +17,7 @@ from trocar.waves.mesh.mesh_patch import (
     place_patch,
     push_each_other,
     read_patches,
+    stand,
     write_picture,
 )
 from trocar.waves.mesh.mesh_tick import at_rest, make_mesh_tick, picture_length, sunk_sites
@@ -33,6 +34,7 @@ JELLY = Layer(
     name="liver", thickness=0.03, young_modulus=4.5e3, poisson_ratio=0.48, density=1060, loss_factor=0.4
 )
 ONE, PATCHES = np.zeros((1, 1)), np.array([[-4e-4, 0.0, 4e-4], [-5e-4, 0.0, 5e-4]])
+MANY = np.tile(np.linspace(-1.2e-3, 1.2e-3, 7), (2, 1))  # more points than knots
 
 
 class Live:
@@ -81,7 +83,7 @@ def test_a_press_between_sites_is_that_of_the_mesh_at_rest_and_in_motion(name, x
     ours, theirs = np.array(found).T
     # Both leave out what lies beyond their modes, and not the same.
     assert np.abs(ours - theirs).max() < 0.025 * theirs.max()
-    sites, weights = state.sites[0, : state.counts[0]], state.weights[0, : state.counts[0], 0]
+    sites, weights = state.sites[0, : state.counts[0]], state.weights[0, : state.counts[0]]
     static = weights @ live.modes.static[np.ix_(sites, sites)] @ weights
     assert static == pytest.approx(nodal @ live.model.field(live.model.static(load)).ravel(), rel=0.02)
 
@@ -131,10 +133,85 @@ def test_a_patch_lies_in_the_tangent_plane_and_its_points_on_the_surface(organ):
         assert state.on[0].all()
 
 
+def test_a_place_stands_as_a_patch_there_does(organ):
+    tick, state = organ.tick(PATCHES)
+    cubic, frame = np.zeros(8), np.zeros((4, 3))
+    for x, y in ((0.06, 0.05), (0.12, 0.03)):
+        place_patch(tick, state, 1, x, y)
+        assert stand(tick, x, y, cubic, frame)
+        assert np.array_equal(frame, state.frames[1])
+    assert not stand(tick, -1.0, 0.05, cubic, frame)
+    assert not stand(tick, 0.001, 0.001, cubic, frame)
+
+
 def centre_height(tick, state, x, y):
     """Height of the surface where the second patch is put [m]."""
     assert place_patch(tick, state, 1, x, y)
     return state.frames[1, 0, 2]
+
+
+def each_a_knot(tick):
+    """The same tick, its patches looking at the mesh at every point."""
+    return tick._replace(knots=tick.offsets, onto=np.zeros((len(tick.offsets), 0, 0)))
+
+
+def test_knots_answer_nearly_as_every_point_does(organ):
+    tick, state = organ.tick(MANY)
+    exact, other = each_a_knot(tick), at_rest(tick)
+    (own, across), (own_exact, across_exact) = np.zeros((2, 2, 49, 49))
+    assert tick.knots.shape == (2, 3)
+    for x, y in np.random.default_rng(4).uniform([0.06, 0.035], [0.16, 0.075], (10, 2)).tolist():
+        for its, standing, mine, cross in (
+            (tick, state, own, across),
+            (exact, other, own_exact, across_exact),
+        ):
+            assert place_patch(its, standing, 0, x, y)
+            assert place_patch(its, standing, 1, x + 6e-3, y - 2e-3)
+            push_each_other(its, standing, 0, 0, mine)
+            push_each_other(its, standing, 1, 0, cross)
+        assert state.ranks.tolist() == [9, 9]
+        assert other.ranks.tolist() == [49, 49]
+        # The cubic's curvature jumps from cell to cell, a parabola's does not.
+        assert own == pytest.approx(own_exact, abs=6e-3 * own_exact.max())
+        assert across == pytest.approx(across_exact, abs=6e-3 * own_exact.max())
+        assert state.heights == pytest.approx(other.heights, abs=2e-5)
+
+
+@pytest.mark.parametrize("x", [0.121, 0.0], ids=["inside", "rim"])
+def test_what_a_patch_reads_and_what_it_presses_do_the_same_work(organ, x):
+    tick, state = organ.tick(MANY)
+    x = x or rim(tick, state)
+    assert place_patch(tick, state, 0, x, 0.053)
+    assert place_patch(tick, state, 1, 0.13, 0.053)
+    rng, sunk = np.random.default_rng(5), np.zeros((2, 49))
+    forces = rng.uniform(0.0, 1.0, (2, 49)) * state.on
+    state.amplitudes[:] = rng.standard_normal(len(state.amplitudes))
+    read_patches(tick, state, sunk)
+    hold(tick, state, forces)
+    assert (forces * sunk).sum() == pytest.approx(state.force @ state.amplitudes, rel=1e-10)
+
+
+def rim(tick, state):
+    """A place where a patch stands with some of its points beside the surface [m]."""
+    for x in np.arange(0.05, 0.0, -1e-4).tolist():
+        if place_patch(tick, state, 0, x, 0.053) and not state.on[0].all():
+            return x
+    raise AssertionError("the surface has no rim")
+
+
+def test_at_the_rim_every_point_is_a_knot(organ):
+    tick, state = organ.tick(MANY)
+    exact, other = each_a_knot(tick), at_rest(tick)
+    own, own_exact = np.zeros((2, 49, 49))
+    x = rim(tick, state)
+    place_patch(tick, state, 0, x, 0.053)
+    place_patch(exact, other, 0, x, 0.053)
+    push_each_other(tick, state, 0, 0, own)
+    push_each_other(exact, other, 0, 0, own_exact)
+    assert 0 < state.on[0].sum() < 49
+    assert np.array_equal(state.on, other.on)
+    assert np.array_equal(own, own_exact)
+    assert not own[~state.on[0]].any()
 
 
 def test_nothing_jumps_where_a_patch_passes_a_site(organ):

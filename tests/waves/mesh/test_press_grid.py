@@ -5,10 +5,11 @@ import pytest
 
 from trocar.errors import InputError
 from trocar.tissues import Layer
+from trocar.waves.mesh.block import block_mesh
 from trocar.waves.mesh.elements import Elements
 from trocar.waves.mesh.organ import Liver
 from trocar.waves.mesh.press_grid import press_grid
-from waves.mesh.meshes import BLOCK
+from waves.mesh.meshes import BLOCK, LAYERS, THROUGH
 
 JELLY = Layer(name="liver", thickness=0.03, young_modulus=4.5e3, poisson_ratio=0.48, density=1060)
 
@@ -70,3 +71,12 @@ def test_every_cell_has_all_sites_of_its_cubic_side_by_side(grid):
 def test_what_is_no_grid_is_refused(organ, options, said):
     with pytest.raises(InputError, match=said):
         press_grid(organ, "surface", **options)
+
+
+def test_a_window_that_no_place_of_the_elements_is_near_is_refused():
+    ends = np.array([0.0, 0.02])
+    elements = Elements(block_mesh(LAYERS, (ends, ends, THROUGH), support="base"))
+    with pytest.raises(
+        InputError, match="press grid: window: expected a length that reaches from every site"
+    ):
+        press_grid(elements, "cover", window=3e-4)

@@ -9,27 +9,31 @@ from __future__ import annotations
 from math import floor, sqrt
 
 import numpy as np
+import numpy.typing as npt
 from numba import njit
 
 from trocar.model import FloatArray
 from trocar.waves.kernel import turned
 from trocar.waves.mesh.mesh_tick import ROUND, MeshTick, MeshTickState
+from trocar.waves.mesh.solid_mesh import IntArray
 from trocar.waves.mesh.wave_mesh import STEEPEST
 
-_DROPS = 3  # onto the surface along the normal, from a neighbour's height
+BoolArray = npt.NDArray[np.bool_]
+
+_DROPS = 8  # onto the surface along the normal at most, from a neighbour's height
+_NEAR = 1e-7  # [m] a drop after which a knot is on the surface: the next would be smaller by the slope between them
 
 
 @njit(cache=True)
 def _cubic(
-    tick: MeshTick, x: float, y: float, out: FloatArray
+    cells: BoolArray, u: float, v: float, out: FloatArray
 ) -> tuple[int, int]:  # pragma: no cover - compiled
-    """Write weights of four columns and four rows about a place; return the first of them, or -1 off the surface."""
-    u, v = (x - tick.first[0]) / tick.spacing, (y - tick.first[1]) / tick.spacing
-    columns, rows = tick.cells.shape
+    """Write weights of four columns and four rows about a place of the grid; return the first, or -1 beside it."""
+    columns, rows = cells.shape
     if not (0.0 <= u < columns and 0.0 <= v < rows):
         return -1, -1
     i, j = floor(u), floor(v)
-    if not tick.cells[i, j]:
+    if not cells[i, j]:
         return -1, -1
     for axis in range(2):
         t = u - i if axis == 0 else v - j
@@ -41,102 +45,41 @@ def _cubic(
 
 
 @njit(cache=True)
-def _height(tick: MeshTick, i: int, j: int, cubic: FloatArray) -> float:  # pragma: no cover - compiled
+def _height(
+    number: IntArray, heights: FloatArray, i: int, j: int, cubic: FloatArray
+) -> float:  # pragma: no cover - compiled
     height = 0.0
     for a in range(4):
-        site = tick.number[i + a, j]
+        site = number[i + a, j]
         row = 0.0
         for b in range(4):
-            row += cubic[4 + b] * tick.heights[site + b]
+            row += cubic[4 + b] * heights[site + b]
         height += cubic[a] * row
     return height
-
-
-@njit(cache=True)
-def place_patch(
-    tick: MeshTick, state: MeshTickState, tool: int, x: float, y: float
-) -> bool:  # pragma: no cover - compiled
-    """Put a patch's centre on the surface at x, y [m], as seen from above, in the tangent plane there.
-
-    Args:
-        tick: parameters.
-        state: overwritten; `frames`, `heights` and `on` say where the points are.
-        tool: number of the patch.
-        x: of its centre [m].
-        y: likewise.
-
-    Returns:
-        Whether the surface is there and looks up; if not, the patch must carry no force.
-    """
-    points = tick.offsets.shape[1]
-    on, heights, frame = state.on[tool], state.heights[tool], state.frames[tool]
-    on[:] = False
-    heights[:] = 0.0
-    state.counts[tool] = 0
-    i, j = _cubic(tick, x, y, state.cubics[0])
-    if i < 0 or not _stand(tick, i, j, x, y, state.cubics[0], frame):
-        return False
-    origin, along, across, normal = frame[0], frame[1], frame[2], frame[3]
-    radius = 0.0
-    for a in range(points):
-        radius = max(radius, abs(tick.offsets[tool, a]))
-    most = ROUND * sqrt(2.0) * radius
-    low_i, high_i, low_j, high_j = i, i, j, j
-    height = of_row = 0.0
-    for point in range(points * points):
-        if point % points == 0:
-            height = of_row
-        p, q = tick.offsets[tool, point // points], tick.offsets[tool, point % points]
-        px = origin[0] + p * along[0] + q * across[0]
-        py = origin[1] + p * along[1] + q * across[1]
-        pz = origin[2] + p * along[2] + q * across[2]
-        for _ in range(_DROPS if point else 2 * _DROPS):  # the first has no neighbour yet
-            i, j = _cubic(tick, px + height * normal[0], py + height * normal[1], state.cubics[point])
-            if i < 0:
-                break
-            found = _height(tick, i, j, state.cubics[point]) - (pz + height * normal[2])
-            height = min(max(height + found * normal[2], -most), most)
-        if i < 0:
-            height = 0.0
-            continue
-        on[point] = True
-        heights[point] = height
-        if point % points == 0:
-            of_row = height
-        state.corners[point, 0], state.corners[point, 1] = i, j
-        low_i, high_i = min(low_i, i), max(high_i, i)
-        low_j, high_j = min(low_j, j), max(high_j, j)
-    _gather(tick, state, tool, low_i, high_i - low_i + 4, low_j, high_j - low_j + 4)
-    return True
 
 
 @njit(cache=True)
 def stand(
     tick: MeshTick, x: float, y: float, cubic: FloatArray, frame: FloatArray
 ) -> bool:  # pragma: no cover - compiled
-    """Write the frame of the place at x, y [m]: where it is, the tangent that goes along x, the other one, the normal.
+    """Write the frame of a place on the surface, without a patch.
 
     Args:
         tick: parameters.
-        x: as seen from above [m].
+        x: of the place, as seen from above [m].
         y: likewise.
-        cubic: scratch, overwritten with the weights of the columns and rows about it, shape (8,).
-        frame: overwritten, shape (4, 3).
+        cubic: scratch, shape (8,).
+        frame: overwritten with the place [m], the tangent that goes along x, the other one and the normal,
+            shape (4, 3); worth nothing where False is returned.
 
     Returns:
         Whether the surface is there and looks up.
     """
-    i, j = _cubic(tick, x, y, cubic)
-    return i >= 0 and _stand(tick, i, j, x, y, cubic, frame)
-
-
-@njit(cache=True)
-def _stand(
-    tick: MeshTick, i: int, j: int, x: float, y: float, cubic: FloatArray, frame: FloatArray
-) -> bool:  # pragma: no cover - compiled
-    """Write a place's frame: where it is, the tangent that goes along x, the other one, the normal."""
+    i, j = _cubic(tick.cells, (x - tick.first[0]) / tick.spacing, (y - tick.first[1]) / tick.spacing, cubic)
+    if i < 0:
+        return False
     origin, along, across, normal = frame[0], frame[1], frame[2], frame[3]
-    origin[0], origin[1], origin[2] = x, y, _height(tick, i, j, cubic)
+    origin[0], origin[1], origin[2] = x, y, _height(tick.number, tick.heights, i, j, cubic)
     normal[:] = 0.0
     for a in range(4):
         site = tick.number[i + a, j]
@@ -156,24 +99,112 @@ def _stand(
 
 
 @njit(cache=True)
+def place_patch(
+    tick: MeshTick, state: MeshTickState, tool: int, x: float, y: float
+) -> bool:  # pragma: no cover - compiled
+    """Put a patch's centre on the surface at x, y [m], as seen from above, in the tangent plane there.
+
+    Args:
+        tick: parameters.
+        state: overwritten; `frames`, `heights` and `on` say where the points are.
+        tool: number of the patch.
+        x: of its centre [m].
+        y: likewise.
+
+    Returns:
+        Whether the surface is there and looks up; if not, the patch must carry no force.
+    """
+    on, heights = state.on[tool], state.heights[tool]
+    on[:] = False
+    heights[:] = 0.0
+    state.counts[tool] = 0
+    if not stand(tick, x, y, state.cubics[0], state.frames[tool]):
+        return False
+    onto = tick.onto[tool]
+    if len(onto) > 0 and _lay(tick, state, tool, tick.knots[tool]):
+        on[:] = True
+        np.dot(onto, state.of_knots[: onto.shape[1]], heights)
+    else:
+        _lay(tick, state, tool, tick.offsets[tool])
+        heights[:] = state.of_knots
+    return True
+
+
+@njit(cache=True)
+def _lay(
+    tick: MeshTick, state: MeshTickState, tool: int, offsets: FloatArray
+) -> bool:  # pragma: no cover - compiled
+    """Find the heights of a patch's knots over its tangent plane, and how they press; return whether all are on."""
+    frame, on, heights = state.frames[tool], state.on[tool], state.of_knots
+    number, surface, cells, cubics, corners = (
+        tick.number, tick.heights, tick.cells, state.cubics, state.corners,
+    )  # fmt: skip
+    along, across, normal = frame[1], frame[2], frame[3]
+    x, y, z = frame[0, 0] - tick.first[0], frame[0, 1] - tick.first[1], frame[0, 2]
+    finer = 1.0 / tick.spacing
+    radius = 0.0
+    for a in range(len(offsets)):
+        radius = max(radius, abs(offsets[a]))
+    most = ROUND * sqrt(2.0) * radius
+    low_i, low_j = number.shape
+    high_i = high_j = -1
+    height = of_row = 0.0
+    count = len(offsets)
+    every = True
+    for a in range(count):
+        height = of_row
+        for b in range(count):
+            knot = a * count + b
+            px = x + offsets[a] * along[0] + offsets[b] * across[0]
+            py = y + offsets[a] * along[1] + offsets[b] * across[1]
+            pz = z + offsets[a] * along[2] + offsets[b] * across[2]
+            cubic, i, j = cubics[knot], -1, -1
+            for _ in range(_DROPS):
+                i, j = _cubic(
+                    cells, finer * (px + height * normal[0]), finer * (py + height * normal[1]), cubic
+                )
+                if i < 0:
+                    break
+                drop = _height(number, surface, i, j, cubic) - (pz + height * normal[2])
+                height = min(max(height + drop * normal[2], -most), most)
+                if abs(drop) < _NEAR:
+                    break
+            on[knot] = i >= 0
+            if i < 0:
+                height = heights[knot] = 0.0
+                every = False
+                continue
+            heights[knot] = height
+            if b == 0:
+                of_row = height
+            corners[knot, 0], corners[knot, 1] = i, j
+            low_i, high_i = min(low_i, i), max(high_i, i)
+            low_j, high_j = min(low_j, j), max(high_j, j)
+    if high_i >= 0:
+        _gather(tick, state, tool, count * count, low_i, high_i - low_i + 4, low_j, high_j - low_j + 4)
+    return every
+
+
+@njit(cache=True)
 def _gather(
-    tick: MeshTick, state: MeshTickState, tool: int, first: int, columns: int, left: int, rows: int
+    tick: MeshTick, state: MeshTickState, tool: int, rank: int, first: int, columns: int, left: int, rows: int
 ) -> None:  # pragma: no cover - compiled
-    """Number the sites about a patch, and write how every point presses on them and reads them."""
-    sites, weights, on = state.sites[tool], state.weights[tool], state.on[tool]
-    state.counts[tool] = columns * rows
+    """Number the sites about a patch, and write how every knot presses on them and reads them."""
+    sites, on, count = state.sites[tool], state.on[tool], columns * rows
+    state.counts[tool], state.ranks[tool] = count, rank
+    weights = state.weights[tool, : count * rank].reshape(count, rank)
+    weights[:] = 0.0
     for a in range(columns):
         for b in range(rows):
-            # Of a site that is not there no point has a weight.
+            # Of a site that is not there no knot has a weight.
             sites[a * rows + b] = max(tick.number[first + a, left + b], 0)
-            weights[a * rows + b] = 0.0
-    for point in range(len(on)):
-        if on[point]:
-            cubic = state.cubics[point]
-            i, j = state.corners[point, 0] - first, state.corners[point, 1] - left
+    for knot in range(rank):
+        if on[knot]:
+            cubic = state.cubics[knot]
+            i, j = state.corners[knot, 0] - first, state.corners[knot, 1] - left
             for a in range(4):
                 for b in range(4):
-                    weights[(i + a) * rows + j + b, point] = cubic[a] * cubic[4 + b]
+                    weights[(i + a) * rows + j + b, knot] = cubic[a] * cubic[4 + b]
 
 
 @njit(cache=True)
@@ -194,12 +225,21 @@ def read_patches(
 ) -> None:  # pragma: no cover - compiled
     """Write how deep the surface has sunk at every patch's points without the next forces [m], shape (tools, P P)."""
     for t in range(len(state.counts)):
-        sunk[t] = 0.0
-        for k in range(state.counts[t]):
+        count, rank = state.counts[t], state.ranks[t]
+        if count == 0:
+            sunk[t] = 0.0
+            continue
+        weights = state.weights[t, : count * rank].reshape(count, rank)
+        of_knots = state.of_knots[:rank]
+        of_knots[:] = 0.0
+        for k in range(count):
             site = np.dot(tick.shapes[state.sites[t, k]], state.amplitudes)
-            weights = state.weights[t, k]
-            for point in range(sunk.shape[1]):
-                sunk[t, point] += weights[point] * site
+            for knot in range(rank):
+                of_knots[knot] += weights[k, knot] * site
+        if rank < sunk.shape[1]:
+            np.dot(tick.onto[t], of_knots, sunk[t])
+        else:
+            sunk[t] = of_knots
 
 
 @njit(cache=True)
@@ -216,15 +256,28 @@ def push_each_other(
         out: overwritten, shape (P P, P P); zero at points that are beside the surface.
     """
     here, there, pads = state.counts[one], state.counts[other], out.shape[0]
+    if here == 0 or there == 0:
+        out[:] = 0.0
+        return
     table = state.table[: here * there].reshape(here, there)
     for i in range(here):
         row = tick.at_once[state.sites[one, i]]
         for k in range(there):
             table[i, k] = row[state.sites[other, k]]
-    half = state.half[: here * pads].reshape(here, pads)
-    np.dot(table, state.weights[other, :there], half)
-    np.dot(state.weights[one, :here].T, half, state.pairs)
-    out[:] = state.pairs
+    rank, others = state.ranks[one], state.ranks[other]
+    half = state.half[: here * others].reshape(here, others)
+    core = state.core[: rank * others].reshape(rank, others)
+    np.dot(table, state.weights[other, : there * others].reshape(there, others), half)
+    np.dot(state.weights[one, : here * rank].reshape(here, rank).T, half, core)
+    side = state.side[: rank * pads].reshape(rank, pads)
+    if others < pads:
+        np.dot(core, tick.onto[other].T, side)
+    else:
+        side[:] = core
+    if rank < pads:
+        np.dot(tick.onto[one], side, out)
+    else:
+        out[:] = side
 
 
 @njit(cache=True)
@@ -253,11 +306,19 @@ def hold(tick: MeshTick, state: MeshTickState, forces: FloatArray) -> None:  # p
     """
     state.force[:] = 0.0
     for t in range(len(state.counts)):
-        for k in range(state.counts[t]):
-            weights = state.weights[t, k]
+        count, rank = state.counts[t], state.ranks[t]
+        if count == 0:
+            continue
+        weights = state.weights[t, : count * rank].reshape(count, rank)
+        of_knots = state.of_knots[:rank]
+        if rank < forces.shape[1]:
+            np.dot(forces[t], tick.onto[t], of_knots)
+        else:
+            of_knots[:] = forces[t]
+        for k in range(count):
             total = 0.0
-            for point in range(forces.shape[1]):
-                total += weights[point] * forces[t, point]
+            for knot in range(rank):
+                total += weights[k, knot] * of_knots[knot]
             state.held[t, k] = total
             if total != 0.0:
                 shape = tick.shapes[state.sites[t, k]]

@@ -2,12 +2,13 @@
 
 As on a flat block (`trocar.waves.tick`) a force is held over a tick, x1 = E x0 + W f is stepped as z1 = E (z0 + W f0)
 with z = x - W f, and W is what the next force adds at once. Here a mode is one damped oscillator of the mesh, its shape
-a number at every site of a `PressGrid`. A point of a patch presses and reads the sites around it with weights B,
+a number at every site of a `PressGrid`. A patch presses and reads the sites around its `knots` with weights B, and
+its points take from these with weights L,
 
-    sunk = B^T S z,   f = S^T B p,   W of points = B^T (S W S^T + R) B,
+    sunk = L B^T S z,   f = S^T B L^T p,   W of points = L B^T (S W S^T + R) B L^T,
 
 S the shapes, R the static answer of what is left out. The bracket is a table from every site to every other; it is
-positive semidefinite, so W with a near field is positive definite wherever patches stand.
+positive semidefinite to rounding, so W with a near field is positive definite wherever patches stand.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ import numpy as np
 from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.waves.kernel import TINY
+from trocar.waves.mesh.knots import knots
 from trocar.waves.mesh.press_grid import PressGrid
 from trocar.waves.mesh.solid_mesh import IntArray
 from trocar.waves.mesh.surface_modes import SurfaceModes
@@ -35,7 +37,6 @@ class MeshTick(NamedTuple):
     Attributes:
         turn: E00, E01, E10, E11 and E W (2) of every mode, shape (6, r).
         read: from a mode's block to its amplitude, shape (2, r).
-        gain: W of every mode, from a modal force to its block, shape (2, r).
         shapes: displacement into the surface at the sites, shape (N, r) [kg^-1/2].
         at_once: how far each site sinks within a tick per newton held on each [m/N], shape (N, N).
         number, cells: of the `PressGrid`.
@@ -44,12 +45,12 @@ class MeshTick(NamedTuple):
         first: x, y of the grid's first column and row [m], shape (2,).
         spacing: of the sites [m].
         offsets: of a patch's points from its centre, along both its tangents [m], shape (tools, P).
-        dt: length of a tick [s].
+        knots: of a patch, likewise, shape (tools, n); the offsets themselves where every point is one.
+        onto: L, shape (tools, P P, n n), or (tools, 0, 0) where every point is a knot.
     """
 
     turn: FloatArray
     read: FloatArray
-    gain: FloatArray
     shapes: FloatArray
     at_once: FloatArray
     number: IntArray
@@ -59,7 +60,8 @@ class MeshTick(NamedTuple):
     first: FloatArray
     spacing: float
     offsets: FloatArray
-    dt: float
+    knots: FloatArray
+    onto: FloatArray
 
 
 class MeshTickState(NamedTuple):
@@ -73,13 +75,15 @@ class MeshTickState(NamedTuple):
         heights: of the rest surface over the tangent plane at every point [m], shape (tools, P P).
         on: which points lie on the surface; others must carry no force, shape (tools, P P).
         counts: of the sites that a patch touches, 0 where it is beside the surface, shape (tools,).
-        sites: their numbers, shape (tools, K).
-        weights: B, shape (tools, K, P P).
+        ranks: of the knots that it stands on: n n, or P P where a knot lies beside the surface, shape (tools,).
+        sites: numbers of those sites, shape (tools, K).
+        weights: B, rows of `ranks` numbers for each of `counts` sites, shape (tools, K P P).
         held: forces held on those sites [N], shape (tools, K).
-        cubics: scratch, weights along x and y of every point, shape (P P, 8).
-        corners: scratch, cell of every point, shape (P P, 2).
-        table, half: scratch, from sites to sites, and from sites to points, shapes (K K,), (K P P,).
-        pairs: scratch, shape (P P, P P).
+        cubics: scratch, weights along x and y of every knot, shape (P P, 8).
+        corners: scratch, cell of every knot, shape (P P, 2).
+        of_knots: scratch, a number of every knot, shape (P P,).
+        table, half: scratch, from sites to sites, and from sites to knots, shapes (K K,), (K P P,).
+        core, side: scratch, from knots to knots, and from knots to points, shapes (P^4,), (P^4,).
     """
 
     blocks: FloatArray
@@ -89,14 +93,17 @@ class MeshTickState(NamedTuple):
     heights: FloatArray
     on: np.ndarray
     counts: IntArray
+    ranks: IntArray
     sites: IntArray
     weights: FloatArray
     held: FloatArray
     cubics: FloatArray
     corners: IntArray
+    of_knots: FloatArray
     table: FloatArray
     half: FloatArray
-    pairs: FloatArray
+    core: FloatArray
+    side: FloatArray
 
 
 def make_mesh_tick(modes: SurfaceModes, grid: PressGrid, dt: float, *, offsets: FloatArray) -> MeshTick:
@@ -123,11 +130,11 @@ def make_mesh_tick(modes: SurfaceModes, grid: PressGrid, dt: float, *, offsets: 
     read = oscillators.outputs[:, 0, 0]
     turned = np.concatenate([transition.reshape(-1, 4), np.einsum("rab,rb->ra", transition, gain)], axis=1)
     adds = (read * gain).sum(axis=1)
+    places, onto = knots(np.asarray(offsets, dtype=np.float64), grid.spacing)
     at_once = (modes.shapes * adds) @ modes.shapes.T + modes.rest
     return MeshTick(
         turn=np.ascontiguousarray(np.where(np.abs(turned) > TINY, turned, 0.0).T),
         read=np.ascontiguousarray(read.T),
-        gain=np.ascontiguousarray(gain.T),
         shapes=np.ascontiguousarray(modes.shapes),
         at_once=0.5 * (at_once + at_once.T),
         number=grid.number,
@@ -137,7 +144,8 @@ def make_mesh_tick(modes: SurfaceModes, grid: PressGrid, dt: float, *, offsets: 
         first=np.array(grid.first),
         spacing=grid.spacing,
         offsets=np.ascontiguousarray(offsets, dtype=np.float64),
-        dt=dt,
+        knots=np.ascontiguousarray(places),
+        onto=np.ascontiguousarray(onto),
     )
 
 
@@ -157,14 +165,17 @@ def at_rest(tick: MeshTick) -> MeshTickState:
         heights=np.zeros((tools, pads)),
         on=np.zeros((tools, pads), dtype=np.bool_),
         counts=np.zeros(tools, dtype=np.int64),
+        ranks=np.zeros(tools, dtype=np.int64),
         sites=np.zeros((tools, most), dtype=np.int64),
-        weights=np.zeros((tools, most, pads)),
+        weights=np.zeros((tools, most * pads)),
         held=np.zeros((tools, most)),
         cubics=np.zeros((pads, 8)),
         corners=np.zeros((pads, 2), dtype=np.int64),
+        of_knots=np.zeros(pads),
         table=np.zeros(most * most),
         half=np.zeros(most * pads),
-        pairs=np.zeros((pads, pads)),
+        core=np.zeros(pads * pads),
+        side=np.zeros(pads * pads),
     )
 
 

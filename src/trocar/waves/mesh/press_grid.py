@@ -17,6 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from trocar.errors import InputError
@@ -102,7 +103,16 @@ def press_grid(
         near = cKDTree(places).sparse_distance_matrix(tree, _REACH * window, output_type="coo_matrix")
         shares = rule.areas[near.col] * np.exp(-((near.data / window) ** 2))
         table = sp.csr_array((shares, (near.row, near.col)), shape=near.shape)
-        return sp.csr_array(table.multiply(1.0 / table.sum(axis=1)[:, None]))
+        total: FloatArray = np.asarray(table.sum(axis=1))
+        if not (total > 0).all():
+            raise InputError(
+                "press grid: window",
+                "a length that reaches from every site to places where integrals over the surface are taken, "
+                f"{_REACH:g} windows away at most",
+                window,
+                "take a wider window, or smaller elements",
+            )
+        return sp.csr_array(table.multiply(1.0 / total[:, None]))
 
     up = np.zeros(len(corners), dtype=bool)
     up[over] = _unit(weighted(np.column_stack([corners, heights])[over]) @ rule.normals)[:, 2] > STEEPEST
@@ -151,8 +161,8 @@ def cubic_table(grid: PressGrid, places: FloatArray) -> sp.csr_array:
     """
     at = (np.asarray(places) - grid.first) / grid.spacing
     cell = np.floor(at).astype(np.int64)
-    inside = ((cell >= 1) & (cell < np.array(grid.cells.shape) - 2)).all(axis=1)
-    inside[inside] = grid.cells[tuple(cell[inside].T)]
+    inside: NDArray[np.bool_] = ((cell >= 1) & (cell < np.array(grid.cells.shape) - 2)).all(axis=1)
+    inside[inside] = grid.cells[cell[inside, 0], cell[inside, 1]]
     t, cell = (at - cell)[inside], cell[inside]
     cubic = np.stack(
         [
