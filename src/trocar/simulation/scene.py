@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import pi
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -20,13 +20,13 @@ from trocar.model import FloatArray, Press, Profile, Support
 from trocar.tissues.nodule import Nodule
 from trocar.tissues.tissue import Tissue
 from trocar.waves.cutoff import measured_cutoff
-from trocar.waves.mesh.mesh_tick import MeshTick, MeshTickState
+from trocar.waves.mesh.mesh_tick import MeshTick
 from trocar.waves.mesh.mesh_tick import at_rest as mesh_at_rest
 from trocar.waves.near_field import SMOOTH, Compliance, near_field
 from trocar.waves.nodules import springs_under
 from trocar.waves.solid import WaveSolid
 from trocar.waves.springs import Springs, SpringState, springs_at_rest
-from trocar.waves.tick import LiveWaves, Tick, TickState, make_tick
+from trocar.waves.tick import LiveWaves, make_tick
 from trocar.waves.tick import at_rest as tissue_at_rest
 
 DT = 1e-3  # [s] one tick
@@ -54,7 +54,7 @@ class Scene(NamedTuple):
     """Parameters of a scene; nothing in it changes.
 
     Attributes:
-        tick: the tissue's step.
+        tick: the tissue's step: `Tick` of a flat block, `MeshTick` of a mesh.
         ports: of both instruments [m], shape (2, 3).
         lengths: of their shafts, from handle to tip [m], shape (2,).
         axes, middles: of their tips' ellipsoids (`contact.tips`) [m], shapes (2, 3).
@@ -70,7 +70,7 @@ class Scene(NamedTuple):
         springs: what nodules in it are to the waves.
     """
 
-    tick: Tick | MeshTick
+    tick: Any
     ports: FloatArray
     lengths: FloatArray
     axes: FloatArray
@@ -90,7 +90,7 @@ class SceneState(NamedTuple):
     """What a scene changes, in place.
 
     Attributes:
-        tick: the waves.
+        tick: the waves, `TickState` or `MeshTickState`.
         forces: of every point of both patches into the surface [N], shape (2 P P,).
         touching, holding: which of them press, and which hold the tissue, shape (2 P P,).
         drag: of both tips along the surface, x and y: friction and what the slopes under them push aside [N],
@@ -116,7 +116,7 @@ class SceneState(NamedTuple):
         springs: of nodules.
     """
 
-    tick: TickState | MeshTickState
+    tick: Any
     forces: FloatArray
     touching: np.ndarray
     holding: np.ndarray

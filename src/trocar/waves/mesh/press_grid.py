@@ -17,7 +17,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from trocar.errors import InputError
@@ -161,7 +160,7 @@ def cubic_table(grid: PressGrid, places: FloatArray) -> sp.csr_array:
     """
     at = (np.asarray(places) - grid.first) / grid.spacing
     cell = np.floor(at).astype(np.int64)
-    inside: NDArray[np.bool_] = ((cell >= 1) & (cell < np.array(grid.cells.shape) - 2)).all(axis=1)
+    inside = np.logical_and.reduce((cell >= 1) & (cell < np.array(grid.cells.shape) - 2), axis=1)
     inside[inside] = grid.cells[cell[inside, 0], cell[inside, 1]]
     t, cell = (at - cell)[inside], cell[inside]
     cubic = np.stack(
