@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from trocar.contact.instrument import TipKind, default_instruments
-from trocar.contact.port_sets import PORT_SETS, instruments_through
+from trocar.contact.port_sets import PORT_SETS, instruments_over, instruments_through
 from trocar.errors import InputError
 
 SIZE = (0.06, 0.05)
@@ -99,3 +99,24 @@ def test_the_example_file_is_one():
     example = Path(__file__).parents[2] / "examples" / "ports" / "needle-holder.toml"
     left, right = instruments_through(str(example), SIZE)
     assert (left.tip, right.tip) == (TipKind.GRASPER, TipKind.NEEDLE_HOLDER)
+
+
+@pytest.mark.parametrize("ports", ["usual", "oblique", "one-sided"])
+def test_a_set_stands_over_the_middle_of_another_block_as_over_its_own(ports):
+    usual, other = (0.06, 0.06), (0.2, 0.1)
+    for one, moved in zip(
+        instruments_through(ports, usual), instruments_over(ports, other, usual), strict=True
+    ):
+        shift = np.array([0.07, 0.02, 0.0])
+        assert moved.port == pytest.approx(np.array(one.port) + shift)
+        assert moved.handle == pytest.approx(np.array(one.handle) + shift)
+        assert moved.tip == one.tip
+
+
+def test_a_file_says_places_of_the_block_it_is_used_on(tmp_path):
+    path = tmp_path / "ports.toml"
+    side = 'port_mm = [{}, -10, 100]\ntip = "probe"\n'
+    path.write_text("[left]\n" + side.format(-50) + "[right]\n" + side.format(250))
+    left, right = instruments_over(str(path), (0.2, 0.1), (0.06, 0.06))
+    assert left.port == pytest.approx((-0.05, -0.01, 0.1))
+    assert right.port == pytest.approx((0.25, -0.01, 0.1))

@@ -30,6 +30,7 @@ def interface(name):
         messages.TissueSize,
         messages.LayerSize,
         messages.InstrumentShape,
+        messages.OrganShape,
         messages.Camera,
         messages.Guiding,
         messages.TaskMark,
@@ -61,9 +62,7 @@ def test_a_schema_becomes_a_type(schema, written):
     assert _type(schema) == written
 
 
-@pytest.mark.parametrize(
-    "schema", [{}, {"type": "object"}, {"anyOf": [{"type": "string"}, {"type": "null"}]}]
-)
+@pytest.mark.parametrize("schema", [{}, {"type": "object"}, {"anyOf": [{"type": "string"}, {"allOf": []}]}])
 def test_a_schema_that_says_more_is_not_passed_over(schema):
     with pytest.raises(KeyError):
         _type(schema)
@@ -91,3 +90,10 @@ def test_the_module_prints_it_the_same_in_another_process():
 def test_the_client_has_the_types_of_this_server():
     written = Path(__file__).parents[2] / "client" / "src" / "wire" / "contract.ts"
     assert written.read_text() == TEXT, "run: python -m trocar.web.typescript > client/src/wire/contract.ts"
+
+
+def test_what_may_be_missing_may_be_null():
+    assert _type({"anyOf": [{"type": "string"}, {"type": "null"}]}) == "string | null"
+    assert _type({"type": "array", "items": {"anyOf": [{"type": "number"}, {"type": "null"}]}}) == (
+        "readonly (number | null)[]"
+    )
