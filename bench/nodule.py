@@ -64,9 +64,8 @@ def by_springs(layers: Tissue, nodule: Nodule) -> float:
     tick = make_tick(waves, DT, window=SMOOTH, offsets=np.zeros((1, 1)))
     springs = springs_under((nodule,), waves, layers, tick, window=SMOOTH)
     kx, ky = (pi / side * (each + 1.0) for each in (springs.row, springs.column))
-    oscillators = waves.surface_oscillators
     number = springs.row * waves.surface_modes[1] + springs.column
-    yielding = np.einsum("jsi,jsi->j", oscillators.outputs[:, 0], oscillators.holds[..., 0])[number]
+    yielding = waves.surface_oscillators.yielding[number, 0, 0]
     passed = np.exp(-0.25 * SMOOTH**2 * (kx**2 + ky**2))
     own = np.eye(len(springs.answer)) + springs.feel.T @ (yielding[:, None] * springs.feel)
     rim = np.hypot(kx, ky) * TOOL

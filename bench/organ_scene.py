@@ -4,6 +4,8 @@ Run: python bench/organ_scene.py [--elements 12] [--ticks 5000] [--cache FOLDER]
 
   of a flat block as a mesh and as sine waves, under an upright probe that presses 3 mm deep and slides: how far forces
   on the tip lie apart, of the largest;
+  with --nodule alone, of the liver with a ball of 6 mm of twenty times its stiffness 9 mm below the surface: the force
+  of a probe 3 mm deep over it and 15 mm to the left, and both in the same mesh without the ball;
   of the liver of about 20,000 nodes, two instruments 3 mm deep on circles at 60 mm/s: the time of a whole tick of the
   scene (ports, tips, contact, friction, modes, wrenches), and the largest change of force from tick to tick.
 """
@@ -13,6 +15,7 @@ from __future__ import annotations
 import argparse
 import tempfile
 import time
+from dataclasses import replace
 
 import numpy as np
 
@@ -26,6 +29,7 @@ from trocar.simulation.live_organ import live_organ, organ_mesh
 from trocar.simulation.organ import Organ, make_organ_scene
 from trocar.study.contact.scenes import upright
 from trocar.tissues import Layer, Tissue
+from trocar.tissues.nodule import Nodule
 from trocar.waves.mesh.basis_cache import BasisCache
 from trocar.waves.mesh.block import block_mesh
 from trocar.waves.mesh.wave_mesh import WaveMesh
@@ -46,7 +50,12 @@ def main() -> None:
     parser.add_argument("--elements", type=int, default=12, help="along a side of the block")
     parser.add_argument("--ticks", type=int, default=5000)
     parser.add_argument("--cache", help="a folder that modes are kept in; else they are made anew")
+    parser.add_argument("--nodule", action="store_true", help="feel a nodule in the liver instead")
     arguments = parser.parse_args()
+    if arguments.nodule:
+        with tempfile.TemporaryDirectory() as folder:
+            felt(BasisCache(arguments.cache or folder))
+        return
     flat(arguments.elements)
     with tempfile.TemporaryDirectory() as folder:
         liver(BasisCache(arguments.cache or folder), arguments.ticks)
@@ -111,6 +120,28 @@ def liver(cache: BasisCache, ticks: int) -> None:
         f"forces {1e3 * forces[steady].mean():.0f} mN, from tick to tick "
         f"{1e3 * np.abs(np.diff(forces[steady], axis=0)).max():.2f} mN at most"
     )
+
+
+def felt(cache: BasisCache) -> None:
+    """Press over a nodule and beside it."""
+    lump = Nodule(x=0.12, y=0.05, depth=9e-3, radius=6e-3, young_modulus=9e4)
+    mesh = organ_mesh("liver", tissue("liver"), nodules=(lump,))
+    without = replace(mesh, region=np.zeros_like(mesh.region), materials=mesh.materials[:1])
+    for name, one in (("with", mesh), ("without", without)):
+        organ = live_organ(one, cache=cache)
+        forces = []
+        for x in (lump.x, lump.x - 15e-3):
+            tools = upright((TipKind.GRASPER, TipKind.PROBE), ((x - 0.04, lump.y), (x, lump.y)))
+            height = organ.model.elements.heights(organ.grid.surface, np.array([[x, lump.y]]))[0]
+            down = line((x, lump.y, height + 3e-3), (x, lump.y, height - DEEP), 600)
+            way = np.concatenate([down, np.repeat(down[-1:], 400, axis=0)])
+            record = played(make_organ_scene(organ, tools), poses_along(tools, (None, way)))[-1, 1]
+            forces.append(1e3 * float(np.linalg.norm(record[FORCE : FORCE + 3])))
+        print(
+            f"{name} the ball: {forces[0]:.1f} mN over its place, {forces[1]:.1f} mN 15 mm beside, "
+            f"{100 * (forces[0] / forces[1] - 1):+.0f} %",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

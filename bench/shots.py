@@ -1,4 +1,6 @@
-"""Take pictures of the running trainer with headless Chromium (make shots): rest, press, slide, lift, oblique, headset.
+"""Take pictures of the running trainer with headless Chromium (make shots).
+
+They are of rest, press, slide, lift, oblique ports, a headset and an organ.
 
 A trainer's stream is filmed as it runs, without a browser, and the best moments are chosen. Then the trainer's own
 page is opened, with the trainer behind it, and is shown those very frames and no others until it has drawn each: so a
@@ -6,7 +8,8 @@ machine without a graphics processor, which draws a frame in a second or two, ge
 
 Without an address it starts `trocar train` itself, twice: with the recording of a press, a slide and a lift, and with
 simulated hands through oblique ports. With --address it films the trainer that runs there: anything that presses,
-slides and lifts within --seconds. That gives all but the oblique picture, which needs other ports.
+slides and lifts within --seconds. That gives all but the oblique picture, which needs other ports, and the organ.
+There the page's own hand presses, by the wheel.
 """
 
 from __future__ import annotations
@@ -30,7 +33,8 @@ RECORDING = ROOT / "examples" / "press-slide-lift.csv"
 EMULATOR = ROOT / "client" / "node_modules" / "iwer" / "build" / "iwer.min.js"
 OUT = ROOT / "docs" / "_static" / "trainer"
 WINDOW = {"width": 1280, "height": 800}  # [px]
-STARTING = 120.0  # the first start compiles the tick [s]
+STARTING = 400.0  # the first start compiles the tick, or prepares an organ [s]
+ORGAN_FORCE = 0.06  # [N] on the organ in its picture
 STOPPING = 15.0  # [s]
 LEAN = "xrDevice.position.set(0, 1.34, -0.23)"  # towards the block, as one does to see 60 mm of it
 PATIENCE = 120_000  # until a page has drawn what it was given [ms]
@@ -206,6 +210,34 @@ def filmed(
     return origin, {name: found[name] for name in names}
 
 
+def press_an_organ(context: BrowserContext, address: str, out: Path) -> None:
+    """Press the trainer's organ by the page's right hand, and write a picture of it.
+
+    Raises:
+        ShotError: the hand never reached it.
+    """
+    page = context.new_page()
+    try:
+        page.goto(address)
+        page.select_option("#sharpness", "sharp")
+        page.wait_for_timeout(3000)
+        page.mouse.move(500, 400)
+        page.mouse.wheel(0, -1)
+
+        def pressed() -> bool:
+            page.mouse.wheel(0, -40)
+            page.wait_for_timeout(300)
+            return float(page.locator(".bar").nth(1).inner_text().split(" N")[0].split()[-1]) > ORGAN_FORCE
+
+        until(page, pressed, "the hand did not reach the organ")
+        page.wait_for_timeout(2000)
+        path = out / "organ.jpg"
+        image = page.screenshot(path=path, type="jpeg", quality=88, timeout=PATIENCE)
+        print(f"{path}: {len(image) / 1000:.0f} kB", flush=True)
+    finally:
+        page.close()
+
+
 def take(context: BrowserContext, arguments: argparse.Namespace) -> None:
     """Take every picture there is to take."""
     if not EMULATOR.is_file():
@@ -219,13 +251,15 @@ def take(context: BrowserContext, arguments: argparse.Namespace) -> None:
 
     if arguments.address:
         scenes(arguments.address)
-        print("oblique: left out, for it needs other ports; run without --address")
+        print("oblique, organ: left out, for they need other trainers; run without --address")
         return
     with trainer("--device", "recorded", "--recording", str(RECORDING)) as address:
         scenes(address)
     with trainer("--device", "simulated", "--ports", arguments.oblique_ports) as address:
         origin, found = filmed(context, address, arguments.seconds, "press")
         photograph(context, origin, {"oblique": found["press"]}, arguments.out)
+    with trainer("--mesh", "liver", "--tissue", "liver") as address:
+        press_an_organ(context, address, arguments.out)
 
 
 def main(words: list[str] | None = None) -> int:

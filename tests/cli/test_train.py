@@ -61,7 +61,7 @@ def test_however_it_ends_nothing_stays_behind(ending):
         (["--mesh", "kidney"], "liver, or a file that ends in"),
         (["--mesh", "none.stl"], "a mesh file that can be read"),
         (["--mesh-up", "+y"], "--mesh-up goes with --mesh"),
-        (["--mesh", "liver", "--nodule", "30,30,8,5,300"], "--nodule is for a block"),
+        (["--mesh", "liver", "--nodule", "1,1,8,5,300"], "a place over the organ"),
         (["--mesh", "liver", "--model", "wave-solid"], "--model is for a block"),
         (["--mesh", "liver", "--device", "simulated"], "presses a level block"),
         (["--headless", "--task", "palpate", "--mesh", "liver"], "--mesh does not go with --headless"),

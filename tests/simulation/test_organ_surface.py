@@ -11,7 +11,9 @@ from trocar.simulation.organ import Organ, make_organ_scene
 from trocar.simulation.organ_surface import OrganSurface
 from trocar.study.contact.scenes import upright
 from trocar.tissues.catalogue import tissue
+from trocar.tissues.nodule import Nodule
 from trocar.waves.mesh.basis_cache import BasisCache
+from trocar.waves.mesh.elements import Elements
 from trocar.waves.mesh.organ import Liver
 from trocar.waves.mesh.press_grid import cubic_table
 from trocar.waves.mesh.wave_mesh import WaveMesh
@@ -138,3 +140,25 @@ def test_what_was_prepared_is_kept(tmp_path):
     assert np.array_equal(one.modes.rest, again.modes.rest)
     assert one.block.name == "liver"
     assert one.block.layers[0].thickness == pytest.approx(one.thickness)
+
+
+def test_a_nodule_in_an_organ_lies_under_its_surface():
+    lump = Nodule(x=ON[0], y=ON[1], depth=9e-3, radius=6e-3, young_modulus=9e4)
+    mesh = organ_mesh("liver", tissue("liver"), nodules=(lump,))
+    held = mesh.corners[mesh.cells[mesh.region == 1]]
+    height = Elements(mesh).heights("surface", np.array([ON]))[0]
+    assert len(held) > 20
+    assert held.mean(axis=(0, 1))[:2] == pytest.approx(ON, abs=2e-3)
+    assert held[..., 2].mean() == pytest.approx(height - 9e-3, abs=1.5e-3)
+    assert [layer.name for layer in mesh.materials] == ["parenchyma", "nodule 1"]
+    assert mesh.materials[1].retardation_time == mesh.materials[0].retardation_time
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [({"x": 0.001, "y": 0.001}, "over the organ"), ({"radius": 5e-4}, "ellipsoid as large as")],
+)
+def test_a_nodule_that_cannot_be_is_a_sentence(change, words):
+    lump = Nodule(**({"x": ON[0], "y": ON[1], "depth": 9e-3, "radius": 6e-3, "young_modulus": 9e4} | change))
+    with pytest.raises(InputError, match=words):
+        organ_mesh("liver", tissue("liver"), nodules=(lump,))

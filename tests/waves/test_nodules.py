@@ -39,8 +39,7 @@ def taken(springs, waves):
     """Return what springs take from how far 1 N over a disc in the middle sinks, in the mean over it [m]."""
     k = [pi / SIDE * (each + 1.0) for each in (springs.row, springs.column)]
     number = springs.row * waves.surface_modes[1] + springs.column
-    oscillators = waves.surface_oscillators
-    yielding = np.einsum("jsi,jsi->j", oscillators.outputs[:, 0], oscillators.holds[..., 0])[number]
+    yielding = waves.surface_oscillators.yielding[number, 0, 0]
     rim = np.hypot(*k) * TOOL
     spread = np.exp(-0.25 * WINDOW**2 * (k[0] ** 2 + k[1] ** 2)) * 2 * j1(rim) / rim
     felt = springs.feel.T @ (spread * yielding * np.sin(k[0] * SIDE / 2) * np.sin(k[1] * SIDE / 2))

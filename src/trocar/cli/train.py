@@ -150,8 +150,8 @@ def train(
     if mesh is None:
         for option in reading:
             raise typer.BadParameter(f"--mesh-{option} goes with --mesh")
-    elif nodules or model != "wave-membrane":
-        raise typer.BadParameter(f"--{'nodule' if nodules else 'model'} is for a block; a mesh has its own")
+    elif model != "wave-membrane":
+        raise typer.BadParameter("--model is for a block; a mesh moves by its own modes")
     elif device == "simulated":
         raise typer.BadParameter(
             "--device simulated presses a level block; with --mesh take the page's hands"
@@ -163,7 +163,7 @@ def train(
         if mesh is None:
             stage = set_stage(tissue, ports=ports, model=model, nodules=nodules)
         else:
-            stage = _organ_stage(mesh, tissue, ports, reading, status)
+            stage = _organ_stage(mesh, tissue, ports, nodules, reading, status)
         if stage.tissue.large_deformation:
             log.print(
                 "The trainer's waves are linear: of the layers' laws for large strain they take the beginning. "
@@ -196,14 +196,21 @@ def train(
     log.print("The trainer has stopped.")
 
 
-def _organ_stage(mesh: str, tissue: str, ports: str, reading: dict[str, Any], status: Status) -> Stage:
+def _organ_stage(
+    mesh: str,
+    tissue: str,
+    ports: str,
+    nodules: tuple[Nodule, ...],
+    reading: dict[str, Any],
+    status: Status,
+) -> Stage:
     """Read an organ's mesh and find what answers a press anywhere on it."""
     from trocar.simulation.live_organ import live_organ, organ_mesh
     from trocar.tissues.catalogue import tissue as preset
     from trocar.web.stage import organ_stage
 
     status.update("reading the mesh ...")
-    organ = organ_mesh(mesh, preset(tissue), **reading)
+    organ = organ_mesh(mesh, preset(tissue), nodules=nodules, **reading)
     status.update("finding the mesh's modes; kept for the next time ...")
 
     def told(done: int, total: int) -> None:

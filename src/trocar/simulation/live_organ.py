@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import isfinite
 from pathlib import Path
+
+import numpy as np
 
 from trocar.errors import InputError
 from trocar.simulation.organ import Organ
 from trocar.tissues.layer import Layer
+from trocar.tissues.nodule import Nodule
 from trocar.tissues.tissue import Tissue
 from trocar.waves.mesh.basis_cache import BasisCache
+from trocar.waves.mesh.elements import Elements
+from trocar.waves.mesh.inclusion import with_inclusion
 from trocar.waves.mesh.mesh_file import ENDINGS, read_file
 from trocar.waves.mesh.organ import Liver
 from trocar.waves.mesh.solid_mesh import SolidMesh
 from trocar.waves.mesh.wave_mesh import WaveMesh
 
 ORGANS = ("liver",)
+_SPACING = (
+    0.016  # [m] of a liver whose elements are a third as long about a nodule: as many as elsewhere in all
+)
 MODES = 60  # the lowest; what they leave of a press its site's own modes carry
 
 
@@ -50,6 +60,7 @@ def organ_mesh(
     up: str = "+z",
     held: str = "below",
     touched: str = "above",
+    nodules: Sequence[Nodule] = (),
 ) -> SolidMesh:
     """Return the mesh that a name means.
 
@@ -61,17 +72,47 @@ def organ_mesh(
         up: which of its axes looks up.
         held: the group of its faces that does not move.
         touched: the group of its faces to press.
+        nodules: balls of elements of another stiffness, as deep below the surface as they say. The liver's elements are
+            shorter about the first.
 
     Raises:
-        InputError: there is no such organ, or the file does not hold a mesh that can be a tissue.
+        InputError: there is no such organ, the file does not hold a mesh that can be a tissue, or a nodule lies
+            beside it or is as small as its elements.
     """
     body = tissue.linearised.layers[-1]
     if name in ORGANS:
-        return Liver().mesh(body)
+        if not nodules:
+            return Liver().mesh(body)
+        around = nodules[0].x, nodules[0].y
+        return _with_nodules(Liver().mesh(body, spacing=_SPACING, around=around), nodules)
     path = Path(name)
     if path.suffix.lower() not in ENDINGS:
         raise InputError("mesh", f"{' or '.join(ORGANS)}, or a file that ends in {' '.join(ENDINGS)}", name)
     layers = {layer.name: layer for layer in tissue.linearised.layers}
     named = [region for region in read_file(path).regions if region in layers]
     materials: Layer | dict[str, Layer] = {region: layers[region] for region in named} if named else body
-    return SolidMesh.read(path, materials, unit=unit, up=up, held=held, touched=touched)
+    mesh = SolidMesh.read(path, materials, unit=unit, up=up, held=held, touched=touched)
+    return _with_nodules(mesh, nodules)
+
+
+def _with_nodules(mesh: SolidMesh, nodules: Sequence[Nodule]) -> SolidMesh:
+    """Return a mesh with balls of another stiffness, each of the density and loss of what it lies in."""
+    if not nodules:
+        return mesh
+    heights = Elements(mesh).heights(next(iter(mesh.surfaces)), np.array([[one.x, one.y] for one in nodules]))
+    for number, (nodule, height) in enumerate(zip(nodules, heights.tolist(), strict=True)):
+        if not isfinite(height):
+            raise InputError(
+                "nodule: x, y",
+                "a place over the organ, as seen from above",
+                f"{1e3 * nodule.x:g}, {1e3 * nodule.y:g} mm",
+            )
+        layer = replace(
+            mesh.materials[0],
+            name=f"nodule {number + 1}",
+            young_modulus=nodule.young_modulus,
+            poisson_ratio=nodule.poisson_ratio,
+        )
+        centre = (nodule.x, nodule.y, height - nodule.depth)
+        mesh = with_inclusion(mesh, centre, (nodule.radius,) * 3, layer)
+    return mesh

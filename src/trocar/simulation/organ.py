@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import sqrt
 from typing import Self
 
 import numpy as np
@@ -16,12 +17,14 @@ from trocar.tissues.layer import Layer
 from trocar.tissues.tissue import Tissue
 from trocar.waves.mesh.faces import outer_faces
 from trocar.waves.mesh.mesh_tick import make_mesh_tick, picture_length
-from trocar.waves.mesh.press_grid import PressGrid, press_grid
+from trocar.waves.mesh.press_grid import PER_WINDOW, PressGrid, press_grid, usual_window
 from trocar.waves.mesh.surface_modes import SurfaceModes, surface_modes
 from trocar.waves.mesh.wave_mesh import WaveMesh
 from trocar.waves.near_field import half_space
 from trocar.waves.solid import WaveSolid
 from trocar.waves.springs import NO_SPRINGS
+
+_SITES = 4000  # over the rectangle of a fine mesh: more would take minutes and gigabytes to prepare
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +58,10 @@ class Organ:
             InputError: nothing of it looks up, it has too many sites, or its materials damp differently or remember.
             SolverError: it is not held.
         """
-        grid = press_grid(model.elements, model.layer_names[0])
+        surface = model.layer_names[0]
+        widest = PER_WINDOW * sqrt(model.size[0] * model.size[1] / _SITES)
+        window = max(usual_window(model.elements, surface), widest)
+        grid = press_grid(model.elements, surface, window=window)
         return cls(model, grid, surface_modes(model, grid, progress=progress), name)
 
     @property

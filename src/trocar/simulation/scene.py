@@ -307,9 +307,9 @@ def at_rest(scene: Scene) -> SceneState:
 def _cutoff(model: LiveModel, window: float, tolerance: float) -> float:
     """Return the wavenumber [1/m] beyond which waves add less than a share to what a patch feels."""
     rows, columns = model.surface_modes
-    static = np.einsum("jksi,jsin->jk", model.surface_oscillators.outputs, model.surface_oscillators.holds)
+    static = model.surface_oscillators.yielding[:, :1, 0]
     return measured_cutoff(
-        static.reshape(rows, columns, -1)[..., :1], model.size, 2 * window, Profile.GAUSSIAN, tolerance
+        static.reshape(rows, columns, 1), model.size, 2 * window, Profile.GAUSSIAN, tolerance
     )
 
 

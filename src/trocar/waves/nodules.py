@@ -81,8 +81,7 @@ def springs_under(
     passed = np.exp(-0.25 * window**2 * (kx**2 + ky**2))
     loud = np.abs(felt).max(axis=1) > _LEAST * np.abs(felt).max()
     m, n, felt, passed = (each[loud & (passed > _PASSED)] for each in (m, n, felt, passed))
-    oscillators = waves.surface_oscillators
-    live = np.einsum("jsi,jsi->j", oscillators.outputs[:, 0], oscillators.holds[..., 0])[m * columns + n]
+    live = waves.surface_oscillators.yielding[m * columns + n, 0, 0]
     feel = felt / (live * passed)[:, None]
     compliant -= feel.T @ (live[:, None] * feel)
     if np.linalg.eigvalsh(compliant)[0] <= 0:

@@ -130,6 +130,12 @@ class Oscillators:
         """The state at rest, shape (J, r, 2)."""
         return np.zeros(self.matrices.shape[:3])
 
+    @property
+    def yielding(self) -> FloatArray:
+        """The outputs per unit input held in place, shape (J, k, n)."""
+        result: FloatArray = np.einsum("jksi,jsin->jkn", self.outputs, self.holds)
+        return result
+
     def step(self, state: FloatArray, force0: FloatArray, force1: FloatArray, dt: float) -> FloatArray:
         """Return the state after dt [s] under inputs linear from force0 to force1, each of shape (J, n)."""
         step = self.propagator(dt)

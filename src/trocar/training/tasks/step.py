@@ -316,7 +316,9 @@ class Lift:
                 return "Open the jaw again: it closed on nothing."
             pressed = moment.force(self.hand) > _TAKEN * self.most
             return "Close the jaw on it." if pressed else "Press lightly, jaw open."
-        return "Raise it, straight up." if float(moment.tip(self.hand)[2]) < self.height else "Hold it so."
+        if float(moment.tip(self.hand)[2]) < self.height:
+            return "Raise it, straight up."
+        return "Hold it so." if moment.force(self.hand) <= self.most else "Softer: not quite so high."
 
     def mistake(self, moment: Moment) -> str:
         """Return whether the tissue is held elsewhere."""

@@ -80,7 +80,7 @@ def press_grid(
     Raises:
         InputError: a length is not possible, the table of the sites would be larger than 1 GiB, or nothing looks up.
     """
-    window = _PER_EDGE * _edge(elements, surface) if window is None else window
+    window = usual_window(elements, surface) if window is None else window
     spacing = window / PER_WINDOW if spacing is None else spacing
     if not 0 < window < min(elements.mesh.size):
         raise InputError("press grid: window", "a length above 0 and below the mesh's sides [m]", window)
@@ -177,6 +177,11 @@ def cubic_table(grid: PressGrid, places: FloatArray) -> sp.csr_array:
     weights = cubic[:, 0, :, None] * cubic[:, 1, None, :]
     rows = np.repeat(np.flatnonzero(inside), 16)
     return sp.csr_array((weights.ravel(), (rows, columns.ravel())), shape=(len(at), len(grid.places)))
+
+
+def usual_window(elements: Elements, surface: str) -> float:
+    """Return 0.8 of the mean length of a surface's edges [m]."""
+    return _PER_EDGE * _edge(elements, surface)
 
 
 def _edge(elements: Elements, surface: str) -> float:
