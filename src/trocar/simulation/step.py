@@ -35,7 +35,8 @@ PRESENT, HANDLE, ROLL, JAW, POSE = 0, 1, 4, 5, 6
 TIP, DIRECTION, RECORD_ROLL, RECORD_JAW = 0, 3, 6, 7
 FORCE, HANDLE_FORCE, TOUCH, DEPTH, OUTSIDE = 8, 11, 14, 15, 16
 DRAG, PLACE, MOMENT, TWIST = 17, 19, 21, 24
-RECORD = 25
+CUT = 25  # the last snip, for a while after it: links cut, rest places x, y of both ends (`sheet_step`)
+RECORD = 30
 TOUCH_PRESENT, TOUCH_TOUCHING, TOUCH_HOLDING = 1, 2, 4
 
 CLOSED, OPEN = (
