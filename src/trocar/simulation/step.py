@@ -21,10 +21,11 @@ from math import inf, isfinite, sqrt
 from numba import njit
 
 from trocar.contact.friction import drag
-from trocar.contact.port import felt, reach
+from trocar.contact.port import reach
 from trocar.contact.tips import lowest, turn_body, underside, underside_or_side
 from trocar.model import FloatArray
 from trocar.simulation.equilibrium import press_patches
+from trocar.simulation.hand import bring_to_hand
 from trocar.simulation.scene import Scene, SceneState
 from trocar.waves.patch import go_on, hold, let_go, place_patch, read_layers, read_patches
 from trocar.waves.springs import feel_points, feel_waves, hold_springs, lie_deeper
@@ -340,15 +341,9 @@ def _answer(
         direction[i] = record[DIRECTION + i]
         record[FORCE + i] = force[i]
         record[MOMENT + i] = moment[i]
-    felt(force, direction, record[OUTSIDE], scene.lengths[t], hand)
-    record[HANDLE_FORCE] = hand[0] - (moment[1] * direction[2] - moment[2] * direction[1]) / record[OUTSIDE]
-    record[HANDLE_FORCE + 1] = (
-        hand[1] - (moment[2] * direction[0] - moment[0] * direction[2]) / record[OUTSIDE]
-    )
-    record[HANDLE_FORCE + 2] = (
-        hand[2] - (moment[0] * direction[1] - moment[1] * direction[0]) / record[OUTSIDE]
-    )
-    record[TWIST] = moment[0] * direction[0] + moment[1] * direction[1] + moment[2] * direction[2]
+    record[TWIST] = bring_to_hand(force, moment, direction, record[OUTSIDE], scene.lengths[t], hand)
+    for i in range(3):
+        record[HANDLE_FORCE + i] = hand[i]
     record[DRAG], record[DRAG + 1] = state.drag[t, 0], state.drag[t, 1]
     touch = TOUCH_PRESENT + (TOUCH_TOUCHING if touched else 0) + (TOUCH_HOLDING if held else 0)
     record[TOUCH] = touch

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from trocar.contact.instrument import Instrument, Vector
 from trocar.contact.port_sets import instruments_through
 from trocar.errors import InputError
 from trocar.model import FloatArray, Press, Support
+from trocar.realtime.physics import Physics, physics_of
 from trocar.simulation import (
     DEPTH,
     DIRECTION,
@@ -22,13 +24,18 @@ from trocar.simulation import (
     Scene,
     make_scene,
 )
+from trocar.simulation.kind import AnyScene, kind_of
 from trocar.simulation.live import LIVE_MODELS, LIVE_SIZE, live_model
+from trocar.simulation.sheet_scene import SheetScene, make_sheet_scene
+from trocar.simulation.sheet_surface import sheet_planes_shown
 from trocar.simulation.surface import Surface
 from trocar.study.linear_range import linear_range
 from trocar.tissues.catalogue import tissue as preset
+from trocar.tissues.layer import Layer
 from trocar.tissues.nodule import Nodule
 from trocar.tissues.tissue import Tissue
 from trocar.training.tasks.task import Task
+from trocar.waves.sheet.sheet import POISSON_RATIO, Sheet
 from trocar.waves.solid import WaveSolid
 from trocar.web.messages import Camera, Hello, InstrumentShape, LayerSize, TissueSize
 from trocar.web.source import InstrumentState, Snapshot, Status, Touch
@@ -50,23 +57,42 @@ class Stage:
         linear_force: up to this force the tissue's answer is trusted as linear [N].
         grid: nodes of the surface along x and y.
         nodules: in the tissue.
+        sheet: in its place; the tissue then only says how it looks.
     """
 
     tissue: Tissue
     model: str
     size: tuple[float, float]
-    scene: Scene = field(repr=False)
+    scene: AnyScene = field(repr=False)
     instruments: tuple[Instrument, Instrument]
     linear_force: float
     nodules: tuple[Nodule, ...] = ()
     grid: tuple[int, int] = GRID
+    sheet: Sheet | None = None
 
     @cached_property
     def _surface(self) -> Surface:
+        assert isinstance(self.scene, Scene)
         return Surface(self.scene, self.tissue, size=self.size, grid=self.grid)
+
+    def _shown(self, amplitudes: FloatArray, records: FloatArray) -> dict[str, Any]:
+        """Return heights, in_plane and cut of a `Snapshot`."""
+        if isinstance(self.scene, SheetScene):
+            return sheet_planes_shown(amplitudes)
+        return {
+            "heights": self._surface.heights(amplitudes, records),
+            "in_plane": self._surface.in_plane(records),
+        }
+
+    @property
+    def physics(self) -> Physics:
+        """What the servo moves the scene with."""
+        return physics_of(kind_of(self.scene))
 
     def suits(self, task: Task) -> bool:
         """Return whether a task is done in this scene."""
+        if task.sheet is not None or self.sheet is not None:
+            return (self.sheet, self.instruments) == (task.sheet, task.instruments)
         return (
             self.tissue == preset(task.tissue)
             and self.instruments == task.instruments
@@ -144,8 +170,7 @@ class Stage:
             tick_p99=tick_p99,
             status=status,
             instruments=(left, right),
-            heights=self._surface.heights(amplitudes, records),
-            in_plane=self._surface.in_plane(records),
+            **self._shown(amplitudes, records),
         )
 
 
@@ -192,8 +217,42 @@ def _stage_through(tissue: str, ports: str, nodules: tuple[Nodule, ...]) -> Stag
     return set_stage(tissue, ports=ports, nodules=nodules)
 
 
+@lru_cache(maxsize=8)
+def sheet_stage(name: str, ports: str, sheet: Sheet) -> Stage:
+    """Make the stage of a sheet.
+
+    Args:
+        name: of what it is made of.
+        ports: name of a port set, or a file (`contact.port_sets`).
+        sheet: the film.
+
+    Raises:
+        InputError: there is no such port set.
+    """
+    film = Layer(
+        name="film",
+        thickness=sheet.thickness,
+        young_modulus=sheet.young_modulus,
+        poisson_ratio=POISSON_RATIO,
+        density=sheet.density,
+    )
+    instruments = instruments_through(ports, sheet.size)
+    return Stage(
+        tissue=Tissue(name=name, layers=(film,)),
+        model="sheet",
+        size=sheet.size,
+        scene=make_sheet_scene(sheet, instruments),
+        instruments=instruments,
+        linear_force=sheet.linear_force(instruments[0].shaft_radius),
+        grid=sheet.nodes,
+        sheet=sheet,
+    )
+
+
 def stage_of(task: Task) -> Stage:
     """Return the stage a task is done on."""
+    if task.sheet is not None:
+        return sheet_stage(task.tissue, task.ports, task.sheet)
     return _stage_through(task.tissue, task.ports, task.nodules)
 
 

@@ -15,8 +15,8 @@ they store with them, so a cut never gives energy, and what the others pull with
 
 Nodes carry the mass of a square each; those on the rim stay. The step is that of Stoermer and Verlet, with the springs'
 lag taken from the last half step's velocity: stable while omega^2 (dt^2 + 2 lag dt) <= 4 for every frequency. A link
-stores at most twice what it would with one end held and then the other, so no omega^2 is above twice the sum of a node's
-links over its mass: 6 k1 (1 + e)/m in the plane, 12 e k1/m across; fewer links only lower it.
+stores at most twice what it would with one end held and then the other, so no omega^2 is above twice the sum of a
+node's links over its mass: 6 k1 (1 + e)/m in the plane, 12 e k1/m across; fewer links only lower it.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ from trocar.waves.sheet.sheet import Sheet
 
 EAST, NORTH, NORTH_EAST, NORTH_WEST = range(4)  # the links a node is the beginning of
 AHEAD = ((1, 0), (0, 1), (1, 1), (-1, 1))  # nodes from beginning to end along x and y, of each
-_SAFE = 0.9  # of the longest stable step
+_SAFE = 0.95  # of the longest stable step
 _MOST_STEPS = 1000
-_TINY = 1e-200  # [m] and [m/s]
+_TINY = 1e-180  # [m] and [m/s]: added and taken away, it leaves nothing of what is smaller by its digits
 
 
 class Lattice(NamedTuple):
@@ -75,7 +75,7 @@ class LatticeState(NamedTuple):
     Attributes:
         places: displacement u of the nodes from the taut, whole sheet [m], shape (3, ny nx).
         speeds: of the nodes, half a small step before [m/s], shape (3, ny nx).
-        lagged: scratch, the same shape.
+        lagged: scratch: x, y, z, half the sum and half the difference of x and y [m], shape (5, ny nx).
         whole: 1 of a link that holds and 0 of one that is cut, by node and `AHEAD`, shape (4, ny nx).
     """
 
@@ -133,7 +133,7 @@ def taut(lattice: Lattice) -> LatticeState:
     return LatticeState(
         places=np.zeros((3, nodes)),
         speeds=np.zeros((3, nodes)),
-        lagged=np.zeros((3, nodes)),
+        lagged=np.zeros((5, nodes)),
         whole=whole.reshape(4, nodes),
     )
 
@@ -167,6 +167,9 @@ def lag(lattice: Lattice, state: LatticeState) -> None:  # pragma: no cover - co
         u, v, y = state.places[axis], state.speeds[axis], state.lagged[axis]
         for i in range(len(y)):
             y[i] = u[i] + late * v[i]
+    x, y, half, other = state.lagged[0], state.lagged[1], state.lagged[3], state.lagged[4]
+    for i in range(len(x)):
+        half[i], other[i] = 0.5 * (x[i] + y[i]), 0.5 * (x[i] - y[i])
 
 
 @njit(cache=True)
@@ -181,15 +184,16 @@ def pull(lattice: Lattice, state: LatticeState) -> None:  # pragma: no cover - c
     eh = e * lattice.spacing
     kept, push = 1.0 - lattice.drag * lattice.dt, lattice.dt / lattice.mass
     x, y, z = state.lagged[0], state.lagged[1], state.lagged[2]
-    x0, y0, z0 = x[first:], y[first:], z[first:]
+    p, q = state.lagged[3], state.lagged[4]
+    x0, y0, z0, p0, q0 = x[first:], y[first:], z[first:], p[first:], q[first:]
     xe, ye, ze = x[first + 1 :], y[first + 1 :], z[first + 1 :]
     xw, yw, zw = x[first - 1 :], y[first - 1 :], z[first - 1 :]
     xn, yn, zn = x[first + n :], y[first + n :], z[first + n :]
     xs, ys, zs = x[first - n :], y[first - n :], z[first - n :]
-    xne, yne, zne = x[first + n + 1 :], y[first + n + 1 :], z[first + n + 1 :]
-    xsw, ysw, zsw = x[first - n - 1 :], y[first - n - 1 :], z[first - n - 1 :]
-    xnw, ynw, znw = x[first + n - 1 :], y[first + n - 1 :], z[first + n - 1 :]
-    xse, yse, zse = x[first - n + 1 :], y[first - n + 1 :], z[first - n + 1 :]
+    pne, qne, zne = p[first + n + 1 :], q[first + n + 1 :], z[first + n + 1 :]
+    psw, qsw, zsw = p[first - n - 1 :], q[first - n - 1 :], z[first - n - 1 :]
+    pnw, qnw, znw = p[first + n - 1 :], q[first + n - 1 :], z[first + n - 1 :]
+    pse, qse, zse = p[first - n + 1 :], q[first - n + 1 :], z[first - n + 1 :]
     east, west = state.whole[0][first:], state.whole[0][first - 1 :]
     north, south = state.whole[1][first:], state.whole[1][first - n :]
     north_east, south_west = state.whole[2][first:], state.whole[2][first - n - 1 :]
@@ -203,15 +207,13 @@ def pull(lattice: Lattice, state: LatticeState) -> None:  # pragma: no cover - c
         c, d = k2 * north_west[i], k2 * south_east[i]
         fx = ke * (xe[i] - px + eh) - kw * (px - xw[i] + eh) + e * (kn * (xn[i] - px) + ks * (xs[i] - px))
         fy = kn * (yn[i] - py + eh) - ks * (py - ys[i] + eh) + e * (ke * (ye[i] - py) + kw * (yw[i] - py))
-        # Half the sum and half the difference of the ways along x and y: along and across a diagonal.
-        sa, ta = 0.5 * (xne[i] - px + yne[i] - py), 0.5 * (xne[i] - px - yne[i] + py)
-        sb, tb = 0.5 * (px - xsw[i] + py - ysw[i]), 0.5 * (px - xsw[i] - py + ysw[i])
-        sc, tc = 0.5 * (ynw[i] - py - xnw[i] + px), 0.5 * (xnw[i] - px + ynw[i] - py)
-        sd, td = 0.5 * (py - yse[i] - px + xse[i]), 0.5 * (px - xse[i] + py - yse[i])
-        fx += a * (sa + eh + e * ta) - b * (sb + eh + e * tb)
-        fy += a * (sa + eh - e * ta) - b * (sb + eh - e * tb)
-        fx += c * (-sc - eh + e * tc) - d * (-sd - eh + e * td)
-        fy += c * (sc + eh + e * tc) - d * (sd + eh + e * td)
+        # Half the sum and half the difference of the ways along x and y: along and across the diagonals.
+        sa, ta = a * (pne[i] - p0[i] + eh), a * e * (qne[i] - q0[i])
+        sb, tb = b * (p0[i] - psw[i] + eh), b * e * (q0[i] - qsw[i])
+        sc, tc = c * (q0[i] - qnw[i] + eh), c * e * (pnw[i] - p0[i])
+        sd, td = d * (qse[i] - q0[i] + eh), d * e * (p0[i] - pse[i])
+        fx += sa - sb - sc + sd + (ta - tb + tc - td)
+        fy += sa - sb + sc - sd - (ta - tb - tc + td)
         fz = ke * (ze[i] - pz) + kw * (zw[i] - pz) + kn * (zn[i] - pz) + ks * (zs[i] - pz)
         fz += a * (zne[i] - pz) + b * (zsw[i] - pz) + c * (znw[i] - pz) + d * (zse[i] - pz)
         moves = push * free[i]
@@ -235,8 +237,8 @@ def still(state: LatticeState) -> None:  # pragma: no cover - compiled
     for axis in range(3):
         u, v = state.places[axis], state.speeds[axis]
         for i in range(len(u)):
-            u[i] = u[i] if abs(u[i]) > _TINY else 0.0
-            v[i] = v[i] if abs(v[i]) > _TINY else 0.0
+            u[i] = (u[i] + _TINY) - _TINY
+            v[i] = (v[i] + _TINY) - _TINY
 
 
 @njit(cache=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from math import isfinite, sqrt
+from math import isfinite, pi, sqrt
 
 from trocar.errors import InputError
 
@@ -28,11 +28,11 @@ class Sheet:
     """
 
     size: tuple[float, float] = (0.06, 0.06)
-    thickness: float = 1e-3
-    young_modulus: float = 1.2e5
+    thickness: float = 1.5e-3
+    young_modulus: float = 8e4
     density: float = 1070.0
     stretch: float = 0.05
-    along: float = 2e-5
+    along: float = 1e-5
     across: float = 2e-4
     drag: float = 10.0
     cells: int = 40
@@ -73,6 +73,16 @@ class Sheet:
     def tension(self) -> float:
         """Force on each metre of a side, E h e/(1 - nu) of a film lengthened in both directions [N/m]."""
         return self.stiffness * self.stretch / (1 - POISSON_RATIO)
+
+    def linear_force(self, radius: float) -> float:
+        """Return the force under which the dent of a tip stretches the sheet at its rim by half of what it is [N].
+
+        A membrane's slope there is s = F/(2 pi r T), and the stretch that it adds s^2/2.
+
+        Args:
+            radius: of the tip [m].
+        """
+        return 2 * pi * radius * self.tension * sqrt(self.stretch)
 
     @property
     def wave_speed(self) -> float:
