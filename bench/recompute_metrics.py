@@ -181,6 +181,50 @@ def largest_work(hands):
     return most
 
 
+def snips(hands):
+    """Return both ends of every snip that cut something: where what the table tells of a hand's last one changes."""
+    found = []
+    for hand in hands:
+        told = np.stack(
+            [hand[f"cut_{name}"] for name in ("links", "from_x_m", "from_y_m", "to_x_m", "to_y_m")], 1
+        )
+        before = np.vstack([np.zeros(5), told[:-1]])
+        new = (told != before).any(axis=1) & (told[:, 0] > 0)
+        found += [(row[1:3], row[3:5]) for row in told[new]]
+    return found
+
+
+def to_line(place, line):
+    """Return how far a place is from a line of points."""
+    nearest = inf
+    for a, b in pairwise(line):
+        share = min(max((place - a) @ (b - a) / ((b - a) @ (b - a)), 0.0), 1.0)
+        nearest = min(nearest, hypot(*(place - a - share * (b - a))))
+    return nearest
+
+
+def deviations(cuts, line):
+    """Return how far places along the cuts, at most 0.1 mm apart, are from the line: mean and largest."""
+    found = []
+    for begin, end in cuts:
+        count = int(hypot(*(end - begin)) / 1e-4) + 2
+        found += [to_line(begin + share * (end - begin), line) for share in np.linspace(0, 1, count)]
+    return (sum(found) / len(found), max(found)) if found else (nan, nan)
+
+
+def gone_by(cuts, line, width):
+    """Return the share of the line's points that a cut, 0.3 mm longer at either end, goes by within the width."""
+    count = 0
+    for place in line:
+        for begin, end in cuts:
+            long = hypot(*(end - begin))
+            along, to = (end - begin) / long, place - begin
+            if -3e-4 <= to @ along <= long + 3e-4 and abs(to[0] * along[1] - to[1] * along[0]) <= width:
+                count += 1
+                break
+    return count / len(line)
+
+
 def heavy_hand(times, worst, limit):
     """Return how often the force went over the limit, half a second apart."""
     count, last = 0, -inf
@@ -228,6 +272,10 @@ def recompute(table, constants):
         if tip.jerk_squared() > 0
     ]
     arcs = [one for one in (median_arc_length(tip.speed()) for tip in tips) if not isnan(one)]
+    cut = (nan, nan, nan)
+    if constants["line_m"] is not None:
+        cuts, line = snips(hands), np.array(constants["line_m"])
+        cut = (*deviations(cuts, line), gone_by(cuts, line, constants["line_width_m"]))
     strength = constants["tensile_strength_pa"]
     stress = max(one.max() / area for one, area in zip(forces, constants["tip_sections_m2"], strict=True))
     worst = forces.max(axis=0)
@@ -254,6 +302,9 @@ def recompute(table, constants):
         "time_over_limit": above(worst, times, constants["force_limit_n"]),
         "peak_stress_ratio": stress / strength if strength else nan,
         "work_on_tissue": largest_work(hands),
+        "cut_deviation": cut[0],
+        "cut_deviation_most": cut[1],
+        "cut_share": cut[2],
         "errors": float(hands[0]["mistakes"][-1]),
     }
 
@@ -268,6 +319,8 @@ def differences(table, constants, card):
     heavy = heavy_hand(table["left"]["time_s"], worst, constants["force_limit_n"])
     penalties = constants["seconds_per_mistake"] * found["errors"]
     penalties += constants["seconds_per_second_over_limit"] * found["time_over_limit"]
+    if not isnan(found["cut_deviation"]):
+        penalties += constants["seconds_per_metre_off"] * found["cut_deviation"]
     left = max(0.0, constants["cutoff_s"] - found["time"] - penalties) * constants["completed"]
     pairs = {name: (on_card.get(name, nan), value) for name, value in found.items()}
     pairs |= {name: (value, nan) for name, value in on_card.items() if name not in found}

@@ -1,18 +1,21 @@
-/** The surface of the tissue: the newest frame's displacement at the grid's nodes, drawn as it is. */
+/** The surface of the tissue: the newest frame's displacement at the grid's nodes, drawn as it is, cut as it is. */
 
 import { BufferAttribute, BufferGeometry } from "three";
 
 import type { Frame } from "../wire/frame";
 import { TILE } from "./skin-texture";
+import { type Corner, tear } from "./slit";
 
 const NEARBY = 0.005; // how far round a node its surroundings are looked at [m]
 const SHUT_OFF = 3.2; // light lost for a hollow as deep as that is wide, against light kept
 
 export class Surface {
   readonly geometry = new BufferGeometry();
-  private readonly position: Float32Array;
-  private readonly normal: Float32Array;
-  private readonly shade: Float32Array; // how much of its light a node gets, three equal colours
+  private position: Float32Array;
+  private normal: Float32Array;
+  private shade: Float32Array; // how much of its light a node gets, three equal colours
+  private corners: readonly Corner[] = []; // beside the nodes, where the sheet is cut
+  private cut: Uint8Array | null = null; // as it is drawn
 
   /**
    * @param size of the tissue's rectangle [m]. @param nx nodes along x, from edge to edge. @param ny nodes along y.
@@ -39,10 +42,7 @@ export class Surface {
         uv.set([x / TILE, y / TILE], 2 * at); // the texture belongs to the tissue and moves with it
       }
     }
-    this.geometry.setAttribute("position", new BufferAttribute(this.position, 3));
-    this.geometry.setAttribute("normal", new BufferAttribute(this.normal, 3));
-    this.geometry.setAttribute("color", new BufferAttribute(this.shade, 3));
-    this.geometry.setAttribute("uv", new BufferAttribute(uv, 2));
+    this.offer(uv);
     this.geometry.setIndex(triangles(nx, ny, (at) => this.isDrawn(at)));
     if (rest.length > 0) this.turnNormals();
   }
@@ -57,6 +57,7 @@ export class Surface {
 
   /** Move every node to where the frame has it. */
   update(frame: Frame): void {
+    if (frame.cut && !same(frame.cut, this.cut)) this.tear(frame.cut);
     const { nx, ny, size, position } = this;
     const count = nx * ny;
     for (let j = 0; j < ny; j++) {
@@ -69,7 +70,48 @@ export class Surface {
     }
     this.turnNormals();
     this.shadeHollows(frame.heights);
+    this.corners.forEach((corner, k) => this.followOwner(corner, count + k));
     for (const name of ["position", "normal", "color"]) this.geometry.getAttribute(name).needsUpdate = true;
+  }
+
+  /** Draw other triangles from now on: those of a sheet that is cut so. */
+  private tear(cut: Uint8Array): void {
+    const { index, corners } = tear(this.size, this.nx, this.ny, cut);
+    const count = this.nx * this.ny + corners.length;
+    const longer = (values: Float32Array, width: number): Float32Array => {
+      const found = new Float32Array(width * count);
+      found.set(values.subarray(0, Math.min(values.length, width * this.nx * this.ny)));
+      return found;
+    };
+    this.position = longer(this.position, 3);
+    this.normal = longer(this.normal, 3);
+    this.shade = longer(this.shade, 3);
+    const uv = longer(this.geometry.getAttribute("uv").array as Float32Array, 2);
+    corners.forEach((corner, k) => uv.set([corner.x / TILE, corner.y / TILE], 2 * (this.nx * this.ny + k)));
+    this.corners = corners;
+    this.cut = cut.slice();
+    this.geometry.dispose(); // its buffers had another length
+    this.offer(uv);
+    this.geometry.setIndex(index);
+  }
+
+  private offer(uv: Float32Array): void {
+    this.geometry.setAttribute("position", new BufferAttribute(this.position, 3));
+    this.geometry.setAttribute("normal", new BufferAttribute(this.normal, 3));
+    this.geometry.setAttribute("color", new BufferAttribute(this.shade, 3));
+    this.geometry.setAttribute("uv", new BufferAttribute(uv, 2));
+  }
+
+  /** Move a corner as its node went. */
+  private followOwner({ owner, x, y }: Corner, at: number): void {
+    const { nx, ny, size, position, normal, shade } = this;
+    const restX = (size[0] * (owner % nx)) / (nx - 1);
+    const restY = (size[1] * Math.floor(owner / nx)) / (ny - 1);
+    position[3 * at] = (position[3 * owner] as number) + x - restX;
+    position[3 * at + 1] = (position[3 * owner + 1] as number) + y - restY;
+    position[3 * at + 2] = position[3 * owner + 2] as number;
+    normal.copyWithin(3 * at, 3 * owner, 3 * owner + 3);
+    shade.copyWithin(3 * at, 3 * owner, 3 * owner + 3);
   }
 
   /** Darken what is pressed in: a node sunk below those around it is shut off from light its surroundings send back. */
@@ -111,6 +153,10 @@ export class Surface {
       }
     }
   }
+}
+
+function same(one: Uint8Array, other: Uint8Array | null): boolean {
+  return other !== null && one.length === other.length && one.every((value, k) => value === other[k]);
 }
 
 function inside(index: number, count: number): number {

@@ -40,6 +40,8 @@ export function makeTip(tip: Tip, radius: number): TipModel {
       return makeJaws(radius, { length: 0.016, opening: 0.32, both: true, teeth: 9, liner: STEEL });
     case "needle-holder":
       return makeJaws(radius, { length: 0.011, opening: 0.45, both: false, teeth: 0, liner: GOLD });
+    case "scissors":
+      return makeJaws(radius, { length: 0.011, opening: 0.35, both: true, teeth: 0, liner: STEEL });
     case "hook":
       return makeHook(radius);
   }

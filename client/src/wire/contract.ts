@@ -69,7 +69,7 @@ export interface InstrumentShape {
   /** from handle to tip */
   readonly length_m: number;
   readonly shaft_radius_m: number;
-  readonly tip: "probe" | "grasper" | "needle-holder" | "hook";
+  readonly tip: "probe" | "grasper" | "needle-holder" | "hook" | "scissors";
   /** where the handle is at the start */
   readonly handle_m: readonly [number, number, number];
 }
@@ -177,7 +177,7 @@ export const HEADER = {
   nx: 54,
   ny: 56,
   inPlane: 58,
-  zero: 60,
+  cut: 60,
   bytes: 64,
 } as const;
 

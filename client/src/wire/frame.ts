@@ -43,6 +43,7 @@ export interface Frame {
   ny: number;
   heights: Float32Array; // u_z of each layer's upper face [m], layers x ny x nx
   inPlane: Float32Array | null; // u_x, then u_y of the top face [m]
+  cut: Uint8Array | null; // of a sheet: which links of each node are cut, as bits (`scene/slit`)
 }
 
 /** Return the sequence number alone, to acknowledge or drop a frame unread. */
@@ -62,7 +63,9 @@ export function readFrame(buffer: ArrayBuffer): Frame {
   const ny = view.getUint16(HEADER.ny, true);
   const planes = layers + (view.getUint16(HEADER.inPlane, true) ? 2 : 0);
   const start = HEADER.bytes + 2 * INSTRUMENT.bytes;
-  const expected = start + planes * nx * ny * 2;
+  const end = start + planes * nx * ny * 2;
+  const cut = view.getUint32(HEADER.cut, true) !== 0;
+  const expected = end + (cut ? nx * ny : 0);
   if (buffer.byteLength !== expected) {
     throw new WireError(`The trainer sent a frame of ${buffer.byteLength} bytes where ${expected} belong.`);
   }
@@ -85,6 +88,7 @@ export function readFrame(buffer: ArrayBuffer): Frame {
     ny,
     heights: values.subarray(0, surface),
     inPlane: planes > layers ? values.subarray(surface) : null,
+    cut: cut ? new Uint8Array(buffer, end, nx * ny) : null,
   };
 }
 

@@ -13,7 +13,7 @@ export class WireError extends Error {}
 const LEVELS: readonly unknown[] = ["info", "warning", "stopped"];
 const STEERERS: readonly unknown[] = ["page", "trainer"];
 const STATES: readonly unknown[] = ["running", "marking", "finished", "interrupted"];
-const TIPS: readonly unknown[] = ["probe", "grasper", "needle-holder", "hook"];
+const TIPS: readonly unknown[] = ["probe", "grasper", "needle-holder", "hook", "scissors"];
 
 /** Read one text message of the server. */
 export function readServerMessage(text: string): Hello | Guiding | Notice {

@@ -47,11 +47,12 @@ class TipKind(StrEnum):
     GRASPER = "grasper"
     NEEDLE_HOLDER = "needle-holder"
     HOOK = "hook"
+    SCISSORS = "scissors"
 
     @property
     def has_jaw(self) -> bool:
-        """Whether it opens, closes and holds."""
-        return self in (TipKind.GRASPER, TipKind.NEEDLE_HOLDER)
+        """Whether it opens and closes."""
+        return self in (TipKind.GRASPER, TipKind.NEEDLE_HOLDER, TipKind.SCISSORS)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -4,7 +4,7 @@ A file is TOML, lengths in millimetres, the block's corner at the origin, z out 
 
     [left]
     port_mm = [-50, -10, 100]
-    tip = "grasper"          # or "probe", "needle-holder", "hook"
+    tip = "grasper"          # or "probe", "needle-holder", "hook", "scissors"
     shaft_diameter_mm = 5    # optional, 5 to 10
     length_mm = 310          # optional, from handle to tip
 
@@ -64,6 +64,12 @@ PORT_SETS: Mapping[str, PortSet] = {
         left=(0.05, -0.09, 0.1),
         right=(0.12, 0.0, 0.08),
         tips=(TipKind.GRASPER, TipKind.NEEDLE_HOLDER),
+    ),
+    "scissors": PortSet(
+        description="as usual, with scissors in the right hand",
+        left=(-0.08, -0.04, 0.1),
+        right=(0.08, -0.04, 0.1),
+        tips=(TipKind.GRASPER, TipKind.SCISSORS),
     ),
 }
 

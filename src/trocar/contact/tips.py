@@ -44,6 +44,7 @@ TIPS = {
     TipKind.GRASPER: TipShape((0.55, 0.6, 0.8), (0.0, 0.0, 0.8), True),
     TipKind.NEEDLE_HOLDER: TipShape((0.5, 0.5, 0.7), (0.0, 0.0, 0.7), True),
     TipKind.HOOK: TipShape((0.26, 0.96, 0.26), (0.0, 0.88, 0.26), False),
+    TipKind.SCISSORS: TipShape((0.45, 0.45, 0.8), (0.0, 0.0, 0.8), False),
 }
 
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from numba import njit, types
 
-from trocar import simulation
+from trocar.simulation.kind import TISSUE, Kind
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,11 +40,12 @@ class Physics:
 
 def live() -> Physics:
     """Return the physics of `trocar.simulation`."""
-    return Physics(
-        advance=simulation.advance,
-        amplitudes=simulation.amplitudes,
-        come_to_rest=simulation.come_to_rest,
-    )
+    return physics_of(TISSUE)
+
+
+def physics_of(kind: Kind) -> Physics:
+    """Return what moves a kind of scene."""
+    return Physics(advance=kind.advance, amplitudes=kind.amplitudes, come_to_rest=kind.come_to_rest)
 
 
 class Pointer(types.WrapperAddressProtocol):

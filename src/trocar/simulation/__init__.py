@@ -2,6 +2,7 @@
 
 from trocar.simulation.scene import DT, Scene, SceneState, at_rest, make_scene
 from trocar.simulation.step import (
+    CUT,
     DEPTH,
     DIRECTION,
     DRAG,
@@ -31,6 +32,7 @@ from trocar.simulation.step import (
 from trocar.simulation.trajectory import line, play, played, poses_along
 
 __all__ = [
+    "CUT",
     "DEPTH",
     "DIRECTION",
     "DRAG",

@@ -21,7 +21,7 @@ from math import inf, isfinite, sqrt
 from numba import njit
 
 from trocar.contact.friction import drag
-from trocar.contact.port import felt, reach
+from trocar.contact.port import reach
 from trocar.contact.tips import turn_body, underside, underside_or_side
 from trocar.model import FloatArray
 from trocar.simulation.equilibrium import press_patches
@@ -39,6 +39,7 @@ from trocar.simulation.ground import (
     show,
     stand_under,
 )
+from trocar.simulation.hand import bring_to_hand
 from trocar.simulation.scene import Scene, SceneState
 from trocar.waves.springs import feel_points, lie_deeper
 
@@ -48,7 +49,8 @@ PRESENT, HANDLE, ROLL, JAW, POSE = 0, 1, 4, 5, 6
 TIP, DIRECTION, RECORD_ROLL, RECORD_JAW = 0, 3, 6, 7
 FORCE, HANDLE_FORCE, TOUCH, DEPTH, OUTSIDE = 8, 11, 14, 15, 16
 DRAG, PLACE, MOMENT, TWIST = 17, 19, 21, 24
-RECORD = 25
+CUT = 25  # the last snip, for a while after it: links cut, rest places x, y of both ends (`sheet_step`)
+RECORD = 30
 TOUCH_PRESENT, TOUCH_TOUCHING, TOUCH_HOLDING = 1, 2, 4
 
 CLOSED, OPEN = (
@@ -373,15 +375,9 @@ def _answer(
         direction[i] = record[DIRECTION + i]
         record[FORCE + i] = force[i]
         record[MOMENT + i] = moment[i]
-    felt(force, direction, record[OUTSIDE], scene.lengths[t], hand)
-    record[HANDLE_FORCE] = hand[0] - (moment[1] * direction[2] - moment[2] * direction[1]) / record[OUTSIDE]
-    record[HANDLE_FORCE + 1] = (
-        hand[1] - (moment[2] * direction[0] - moment[0] * direction[2]) / record[OUTSIDE]
-    )
-    record[HANDLE_FORCE + 2] = (
-        hand[2] - (moment[0] * direction[1] - moment[1] * direction[0]) / record[OUTSIDE]
-    )
-    record[TWIST] = moment[0] * direction[0] + moment[1] * direction[1] + moment[2] * direction[2]
+    record[TWIST] = bring_to_hand(force, moment, direction, record[OUTSIDE], scene.lengths[t], hand)
+    for i in range(3):
+        record[HANDLE_FORCE + i] = hand[i]
     record[DRAG] = along[0] * frame[1, 0] + along[1] * frame[2, 0]
     record[DRAG + 1] = along[0] * frame[1, 1] + along[1] * frame[2, 1]
     touch = TOUCH_PRESENT + (TOUCH_TOUCHING if touched else 0) + (TOUCH_HOLDING if held else 0)

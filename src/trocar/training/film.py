@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
 from trocar.model import FloatArray
-from trocar.simulation import RECORD, Scene, SceneState, advance, amplitudes, at_rest, come_to_rest
+from trocar.simulation import RECORD
+from trocar.simulation.kind import kind_of
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.session import Recording, judged, scene_of
 from trocar.training.tasks.progress import Progress
@@ -25,7 +26,7 @@ class Film:
     Attributes:
         every: time from one to the next [s]; the first is one such time after the start.
         records: of both instruments, shape (n, 2, RECORD).
-        amplitudes: of the waves [m], shape (n, layers, M, N).
+        amplitudes: what is shown: of the waves, or of a sheet [m], shape (n, layers, M, N).
         attempt, progress: what the task saw of it.
     """
 
@@ -52,7 +53,16 @@ def film(task: Task, recording: Recording) -> Film:
     resets = np.zeros(len(recording.poses), np.bool_)
     resets[list(recording.resets)] = True
     picture = np.zeros(pictures.shape[1:])
-    _expose(scene, at_rest(scene), recording.poses, resets, records, picture, pictures)
+    kind = kind_of(scene)
+    state = kind.at_rest(scene)
+    ends = sorted({*range(EVERY, len(resets), EVERY), *np.flatnonzero(resets).tolist(), len(resets)} - {0})
+    for begin, end in pairwise([0, *ends]):
+        if resets[begin]:
+            kind.come_to_rest(scene, state)
+        kind.play(scene, state, recording.poses[begin:end], records[begin:end])
+        if end % EVERY == 0:
+            kind.amplitudes(scene, state, picture)
+            pictures[end // EVERY - 1] = picture
     attempt, progress = judged(task, recording.times, records)
     return Film(
         every=EVERY * recording.dt,
@@ -61,22 +71,3 @@ def film(task: Task, recording: Recording) -> Film:
         attempt=attempt,
         progress=progress,
     )
-
-
-@njit(cache=True, nogil=True)
-def _expose(
-    scene: Scene,
-    state: SceneState,
-    poses: FloatArray,
-    resets: npt.NDArray[np.bool_],
-    records: FloatArray,
-    picture: FloatArray,
-    pictures: npt.NDArray[np.float32],
-) -> None:  # pragma: no cover - compiled
-    for tick in range(len(poses)):
-        if resets[tick]:
-            come_to_rest(scene, state)
-        advance(scene, state, poses[tick], records[tick])
-        if (tick + 1) % EVERY == 0:
-            amplitudes(scene, state, picture)
-            pictures[tick // EVERY, :, :, :] = picture

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from math import inf, isinf, isnan, nan
+from math import dist, inf, isinf, isnan, nan
 from typing import Protocol
 
 import numpy as np
@@ -22,17 +22,21 @@ from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.simulation import HANDLE, JAW, POSE, PRESENT
 from trocar.training.palpation import Palpation
+from trocar.training.tasks.cut import Cut
 from trocar.training.tasks.find import Find
 from trocar.training.tasks.moment import Moment
 from trocar.training.tasks.progress import Progress
 from trocar.training.tasks.step import Follow, LetGo, Lift, Press, Step, Together
 from trocar.training.wish import Wish
 
+_THERE = 1e-4  # [m] from where a snip is meant
 _ABOVE = 4e-3  # [m] over the tissue, where a hand goes from mark to mark
 _GAIN = 0.1  # [m/(N s)] by which a hand corrects its depth: on skin it is there in a tenth of a second
 _CLOSE = 0.25  # [s] for a jaw
 _LIGHTEST = 0.4  # of the force that is right, that anybody presses with at first
 _RAISING = 0.125  # of the speed it comes down with, with tissue in the jaw
+_BITE = 1.2e-3  # [m] along a line from where the cut ends to where a hand sets the tip for the next snip
+_SNIPPED = 0.5  # of the most force, to cut with
 _LEARNING = 3e-3  # [1/tick] of an error that is seen is taken away
 
 
@@ -63,6 +67,7 @@ class Habits:
         lowering: of a tip that comes down or goes up at the tissue [m/s].
         pause: before each way, on average [s].
         miss: of the first aim at a mark, in each direction [m].
+        miss_each: of the aim of each snip [m].
         waver: of a way to either side [m].
         force_error: of the force first pressed with and the height first raised to, relative.
         patience: until an aim, a force or a height is corrected [s].
@@ -75,6 +80,7 @@ class Habits:
     lowering: float
     pause: float
     miss: float
+    miss_each: float
     waver: float
     force_error: float
     patience: float
@@ -89,6 +95,7 @@ HABITS = {
         lowering=0.004,
         pause=0.15,
         miss=2e-4,
+        miss_each=1e-4,
         waver=2e-4,
         force_error=0.05,
         patience=0.2,
@@ -101,6 +108,7 @@ HABITS = {
         lowering=0.006,
         pause=0.9,
         miss=3e-3,
+        miss_each=3e-3,
         waver=4e-3,
         force_error=1.2,
         patience=1.0,
@@ -182,6 +190,16 @@ def _wishes(step: Step | None) -> dict[int, Wish]:
                 place=step.place, force=0.5 * step.most, aim=step.place, height=1.15 * step.height
             )
         }
+    if isinstance(step, Cut):
+        points = step.line.points
+        ahead = next(
+            (n for n in range(step.to, len(points)) if dist(points[n], points[step.to]) >= _BITE), -1
+        )
+        return {
+            step.hand: Wish(
+                place=points[ahead], force=_SNIPPED * step.most, aim=step.line, slide=True, snip=True
+            )
+        }
     assert step is None or isinstance(step, LetGo)
     return {}
 
@@ -210,6 +228,7 @@ class _Hand:
         self._since = 0.0
         self._way: _Way | None = None
         self._missed = False  # the jaw closed on nothing
+        self._opening = False  # blades that have just cut
 
     def pose(self, moment: Moment, wish: Wish | None) -> FloatArray:
         time = moment.time
@@ -259,20 +278,37 @@ class _Hand:
         if wish.height is not None and (moment.holds(self.number) or self._jaw < 1.0):
             self._raise(moment, wish.height)
             return
-        self._across(wish)
+        if wish.snip and self._jaw < 1.0:
+            self._snip(moment.time)
+            return
+        left = self._across(wish)
         target = wish.force * self._force_share
         error = target - moment.force(self.number)
         fastest = self._habits.lowering
         self._tip[2] -= self._dt * float(np.clip(_GAIN * error, -fastest, fastest))
-        if wish.height is not None and abs(error) < 0.3 * target:
+        ready = wish.height is not None or (wish.snip and left < _THERE)
+        if ready and abs(error) < 0.3 * target:
             self._jaw = 1.0 - self._dt / _CLOSE
 
-    def _across(self, wish: Wish) -> None:
+    def _snip(self, time: float) -> None:
+        """Close the blades, open them, and aim anew."""
+        self._jaw = min(1.0, max(0.0, self._jaw + (1 if self._opening else -1) * self._dt / _CLOSE))
+        if self._jaw == 0.0:
+            self._opening = True
+        elif self._jaw == 1.0:
+            self._opening = False
+            self._since = time
+            self._miss = self._habits.miss_each * self._rng.uniform(-1, 1, 2)
+            self._force_share = self._share()
+
+    def _across(self, wish: Wish) -> float:
+        """Go on towards a place along the tissue; return how far it still is [m]."""
         away = np.array(wish.place) + self._miss - self._tip[:2]
         distance = float(np.hypot(*away))
         fastest = (0.11 if wish.slide else 0.15) * self._habits.speed * self._dt
         if distance > 0:
             self._tip[:2] += away * min(1.0, fastest / distance)
+        return distance
 
     def _raise(self, moment: Moment, height: float) -> None:
         if self._jaw > 0.0:

@@ -23,6 +23,7 @@ class Marking:
         pass_score: least score that passes.
         per_error: penalty for each error [s].
         per_second_over_limit: penalty for each second with a force above the task's limit [s/s].
+        per_metre_off: penalty for each metre that a cut lies beside its line, on average [s/m].
     """
 
     cutoff: float
@@ -30,6 +31,7 @@ class Marking:
     pass_score: float
     per_error: float = 10.0
     per_second_over_limit: float = 5.0
+    per_metre_off: float = 0.0
 
     def __post_init__(self) -> None:
         if not 0 < self.expert_time < self.cutoff:
@@ -38,12 +40,12 @@ class Marking:
             )
         if not 0 < self.pass_score <= 100:
             raise InputError("marking: pass_score", "above 0, at most 100", self.pass_score)
-        for name in ("per_error", "per_second_over_limit"):
+        for name in ("per_error", "per_second_over_limit", "per_metre_off"):
             if not getattr(self, name) >= 0:
                 raise InputError(f"marking: {name}", "at least 0", getattr(self, name))
 
 
-def score(marking: Marking, *, time: float, errors: int, over_limit: float) -> float:
+def score(marking: Marking, *, time: float, errors: int, over_limit: float, off: float = 0.0) -> float:
     """Return the score, 0 to 100 for an expert's time and more for a quicker one.
 
     Args:
@@ -51,7 +53,9 @@ def score(marking: Marking, *, time: float, errors: int, over_limit: float) -> f
         time: taken [s].
         errors: made.
         over_limit: time with a force above the limit [s].
+        off: mean distance of a cut from its line [m].
     """
     penalties = marking.per_error * errors + marking.per_second_over_limit * over_limit
+    penalties += marking.per_metre_off * off
     left = max(0.0, marking.cutoff - time - penalties)
     return 100 * left / (marking.cutoff - marking.expert_time)

@@ -17,8 +17,10 @@ from trocar.contact.instrument import Instrument
 from trocar.contact.tips import largest_sections
 from trocar.errors import InputError
 from trocar.model import FloatArray
-from trocar.simulation import DT, POSE, RECORD, Scene, advance, at_rest, make_scene, played
+from trocar.simulation import DT, POSE, RECORD, make_scene
+from trocar.simulation.kind import AnyScene, kind_of
 from trocar.simulation.live import live_model
+from trocar.simulation.sheet_scene import make_sheet_scene
 from trocar.tissues.catalogue import tissue
 from trocar.tissues.nodule import Nodule
 from trocar.tissues.tissue import Tissue
@@ -30,6 +32,7 @@ from trocar.training.tasks.moment import Moment
 from trocar.training.tasks.progress import TOO_MUCH, Mistake, Progress
 from trocar.training.tasks.task import Task
 from trocar.waves.membrane import WaveMembrane
+from trocar.waves.sheet.sheet import Sheet
 from trocar.waves.solid import WaveSolid
 
 LONGEST = 600.0  # [s] of an attempt without an end
@@ -57,10 +60,10 @@ class Recording:
         if not np.isfinite(self.poses).all():
             raise InputError("recording: poses", "finite numbers alone", "one that is not")
 
-    def played(self, scene: Scene) -> FloatArray:
+    def played(self, scene: AnyScene) -> FloatArray:
         """Return the records of both instruments in every tick, from rest, shape (n, 2, RECORD)."""
         stretches = np.split(self.poses, list(self.resets))
-        return np.concatenate([played(scene, stretch) for stretch in stretches])
+        return np.concatenate([kind_of(scene).played(scene, stretch) for stretch in stretches])
 
     @property
     def times(self) -> FloatArray:
@@ -124,13 +127,20 @@ def _model(name: str) -> WaveMembrane | WaveSolid:
     return live_model(tissue(name))
 
 
-def scene_of(task: Task) -> Scene:
+def scene_of(task: Task) -> AnyScene:
     """Return the scene a task is done in."""
-    return _scene(task.tissue, task.instruments, task.nodules)
+    return _scene(task.tissue, task.instruments, task.nodules, task.sheet)
 
 
 @lru_cache(maxsize=8)
-def _scene(name: str, instruments: tuple[Instrument, Instrument], nodules: tuple[Nodule, ...]) -> Scene:
+def _scene(
+    name: str,
+    instruments: tuple[Instrument, Instrument],
+    nodules: tuple[Nodule, ...],
+    sheet: Sheet | None,
+) -> AnyScene:
+    if sheet is not None:
+        return make_sheet_scene(sheet, instruments)
     return make_scene(_model(name), tissue(name), instruments, nodules=nodules)
 
 
@@ -145,14 +155,15 @@ def perform(
         watch: told the time of the attempt [s] and both poses, shape (2, POSE), every tick.
     """
     scene = scene_of(task)
-    state, progress = at_rest(scene), Progress(task)
+    kind, progress = kind_of(scene), Progress(task)
+    state = kind.at_rest(scene)
     records = np.zeros((2, RECORD))
     moment = Moment(0.0, records)
     limit = min(LONGEST, task.marking.cutoff)
     poses: list[FloatArray] = []
     while not progress.done and moment.time < limit:
         poses.append(player.poses(moment, progress))
-        advance(scene, state, poses[-1], records)
+        kind.advance(scene, state, poses[-1], records)
         moment = Moment(scene.dt * len(poses), records)
         progress.advance(moment)
         watch(moment.time, poses[-1])
@@ -195,7 +206,8 @@ def judged(task: Task, times: FloatArray, records: FloatArray) -> tuple[Attempt,
         force_limit=task.force_limit,
         ideal_length=task.ideal_length if progress.done else nan,
         errors=len(progress.mistakes),
-        strength=_weakest(tissue(task.tissue)),
+        strength=nan if task.sheet is not None else _weakest(tissue(task.tissue)),
+        line=task.line,
         sections=largest_sections(scene_of(task).axes),
     )
     return attempt, progress
@@ -219,6 +231,7 @@ def marked(task: Task, attempt: Attempt, progress: Progress) -> Card:
         time=attempt.duration,
         errors=len(progress.mistakes),
         over_limit=metrics["time_over_limit"],
+        off=metrics["cut_deviation"] if isfinite(metrics["cut_deviation"]) else 0.0,
     ) * float(progress.done)
     passed = progress.done and found >= task.marking.pass_score
     return Card(
@@ -270,5 +283,6 @@ _REMEDIES = {
     "left the line": ": go slower where it bends.",
     "worked on tissue that was not held down": ": look at the holding hand's bar before you press.",
     "took hold where nothing is": ": feel all around before you close the jaw, and compare.",
+    "cut beside the line": ": bring the tip over the line before you close the blades, and bite less where it bends.",
     "took hold beside the mark": ": go over the mark before you close the jaw.",
 }

@@ -23,6 +23,7 @@ from trocar.contact.instrument import NAMES
 from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.simulation import (
+    CUT,
     DEPTH,
     DIRECTION,
     FORCE,
@@ -57,6 +58,11 @@ _FELT = {
     **{f"force_{axis}_n": FORCE + at for at, axis in enumerate("xyz")},
     **{f"moment_{axis}_n_m": MOMENT + at for at, axis in enumerate("xyz")},
     "depth_m": DEPTH,
+    "cut_links": CUT,
+    "cut_from_x_m": CUT + 1,
+    "cut_from_y_m": CUT + 2,
+    "cut_to_x_m": CUT + 3,
+    "cut_to_y_m": CUT + 4,
 }
 _FLAGS = {"present": TOUCH_PRESENT, "touching": TOUCH_TOUCHING, "holding": TOUCH_HOLDING}
 COLUMNS = ("tick", "time_s", "instrument", *_FLAGS, *_POSE, *_FELT, "step", "mistakes")
@@ -70,8 +76,9 @@ class AttemptTable:
         rows: of `COLUMNS`: tick from 1; time of the tick's end [s]; "left" or "right"; whether the instrument is in
             the hand, touches and holds (1 or 0); pose of the handle [m, rad, 0 closed to 1 open]; end of the tip [m];
             direction of the shaft towards it; shaft outside the port [m]; force of the tissue on the tip [N] and
-            moment about its end [N m]; depth of the tip below the surface at rest [m]; number of the step that is on,
-            from 1; mistakes so far.
+            moment about its end [N m]; depth of the tip below the surface at rest [m]; what its blades cut last, for a
+            while after it: how many links, and both ends at rest [m]; number of the step that is on, from 1; mistakes
+            so far.
         constants: what does not change, as `write_table` puts it into the JSON.
     """
 
@@ -147,6 +154,7 @@ def _constants(task: Task, dt: float, attempt: Attempt, progress: Progress) -> d
         "pass_score": marking.pass_score,
         "seconds_per_mistake": marking.per_error,
         "seconds_per_second_over_limit": marking.per_second_over_limit,
+        "seconds_per_metre_off": marking.per_metre_off,
     }
     return {
         "task": task.name,
@@ -159,5 +167,7 @@ def _constants(task: Task, dt: float, attempt: Attempt, progress: Progress) -> d
             {"time_s": one.time, "step": one.step + 1, "words": one.words} for one in progress.mistakes
         ],
         **{name: value if isfinite(value) else None for name, value in found.items()},
+        "line_m": [list(point) for point in task.line.points] if task.line is not None else None,
+        "line_width_m": task.line.width if task.line is not None else None,
         "tip_sections_m2": [float(area) for area in attempt.sections],
     }

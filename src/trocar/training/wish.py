@@ -15,6 +15,7 @@ class Wish:
         aim: what the aim is renewed for.
         slide: whether the tip goes along the tissue.
         height: of the tip with tissue in the jaw [m]; None where nothing is taken hold of.
+        snip: whether to close the blades there, and open them again.
     """
 
     place: tuple[float, float]
@@ -22,3 +23,4 @@ class Wish:
     aim: object
     slide: bool = False
     height: float | None = None
+    snip: bool = False

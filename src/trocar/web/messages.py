@@ -59,7 +59,7 @@ class InstrumentShape(Message):
     port_m: Vector = Field(description="the fixed point the shaft turns about")
     length_m: float = Field(description="from handle to tip")
     shaft_radius_m: float
-    tip: Literal["probe", "grasper", "needle-holder", "hook"]
+    tip: Literal["probe", "grasper", "needle-holder", "hook", "scissors"]
     handle_m: Vector = Field(description="where the handle is at the start")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from math import isfinite
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from trocar.contact.instrument import Instrument, Vector
 from trocar.contact.port_sets import instruments_over, instruments_through
 from trocar.errors import InputError
 from trocar.model import FloatArray, Press, Support
+from trocar.realtime.physics import Physics, physics_of
 from trocar.simulation import (
     DEPTH,
     DIRECTION,
@@ -23,15 +25,20 @@ from trocar.simulation import (
     Scene,
     make_scene,
 )
+from trocar.simulation.kind import AnyScene, kind_of
 from trocar.simulation.live import LIVE_MODELS, LIVE_SIZE, live_model
 from trocar.simulation.organ import Organ, make_organ_scene
 from trocar.simulation.organ_surface import OrganSurface
+from trocar.simulation.sheet_scene import SheetScene, make_sheet_scene
+from trocar.simulation.sheet_surface import sheet_planes_shown
 from trocar.simulation.surface import Surface
 from trocar.study.linear_range import linear_range
 from trocar.tissues.catalogue import tissue as preset
+from trocar.tissues.layer import Layer
 from trocar.tissues.nodule import Nodule
 from trocar.tissues.tissue import Tissue
 from trocar.training.tasks.task import Task
+from trocar.waves.sheet.sheet import POISSON_RATIO, Sheet
 from trocar.waves.solid import WaveSolid
 from trocar.web.messages import Camera, Hello, InstrumentShape, LayerSize, OrganShape, TissueSize
 from trocar.web.source import InstrumentState, Snapshot, Status, Touch
@@ -56,38 +63,55 @@ class Stage:
         grid: nodes of the surface along x and y.
         nodules: in the tissue.
         organ: what the scene is made of, if that is no block; `tissue` is then one of its material.
+        sheet: in the tissue's place; the tissue then only says how it looks.
     """
 
     tissue: Tissue
     model: str
     size: tuple[float, float]
-    scene: Scene = field(repr=False)
+    scene: AnyScene = field(repr=False)
     instruments: tuple[Instrument, Instrument]
     linear_force: float
     nodules: tuple[Nodule, ...] = ()
     organ: Organ | None = None
     grid: tuple[int, int] = GRID
+    sheet: Sheet | None = None
 
     @cached_property
     def _surface(self) -> Surface | OrganSurface:
+        assert isinstance(self.scene, Scene)
         if self.organ is not None:
             return OrganSurface(self.scene, self.organ, grid=self.grid)
         return Surface(self.scene, self.tissue, size=self.size, grid=self.grid)
 
+    def _shown(self, amplitudes: FloatArray, records: FloatArray) -> dict[str, Any]:
+        """Return heights, in_plane and cut of a `Snapshot`."""
+        if isinstance(self.scene, SheetScene):
+            return sheet_planes_shown(amplitudes)
+        heights, in_plane = self._surface.moved(amplitudes, records)
+        return {"heights": heights, "in_plane": in_plane}
+
+    @property
+    def physics(self) -> Physics:
+        """What the servo moves the scene with."""
+        return physics_of(kind_of(self.scene))
+
     @cached_property
     def _shape(self) -> OrganShape | None:
-        surface = self._surface
-        if not isinstance(surface, OrganSurface):
+        if self.organ is None:
             return None
-        corners, faces = surface.sides
+        assert isinstance(self._surface, OrganSurface)
+        corners, faces = self._surface.sides
         return OrganShape(
-            rest_m=tuple(round(z, 6) if isfinite(z) else None for z in surface.rest.ravel().tolist()),
+            rest_m=tuple(round(z, 6) if isfinite(z) else None for z in self._surface.rest.ravel().tolist()),
             corners_m=tuple(_vector(corner) for corner in np.round(corners, 6)),
             faces=tuple((a, b, c) for a, b, c in faces.tolist()),
         )
 
     def suits(self, task: Task) -> bool:
         """Return whether a task is done in this scene."""
+        if task.sheet is not None or self.sheet is not None:
+            return (self.sheet, self.instruments) == (task.sheet, task.instruments)
         return (
             self.tissue == preset(task.tissue)
             and self.instruments == task.instruments
@@ -125,8 +149,9 @@ class Stage:
     @property
     def _middle_height(self) -> float:
         """How high the middle of the tissue lies [m]."""
-        if not isinstance(self._surface, OrganSurface):
+        if self.organ is None:
             return 0.0
+        assert isinstance(self._surface, OrganSurface)
         height = float(self._surface.rest[self.grid[1] // 2, self.grid[0] // 2])
         return height if isfinite(height) else 0.0
 
@@ -165,7 +190,6 @@ class Stage:
             status |= Status.BEYOND_LINEAR
         felt = np.zeros((2, 3)) if hand_forces is None else hand_forces
         left, right = (_instrument(record, force) for record, force in zip(records, felt, strict=True))
-        heights, in_plane = self._surface.moved(amplitudes, records)
         return Snapshot(
             tick=tick,
             time=time,
@@ -176,8 +200,7 @@ class Stage:
             tick_p99=tick_p99,
             status=status,
             instruments=(left, right),
-            heights=heights,
-            in_plane=in_plane,
+            **self._shown(amplitudes, records),
         )
 
 
@@ -256,8 +279,42 @@ def _stage_through(tissue: str, ports: str, nodules: tuple[Nodule, ...]) -> Stag
     return set_stage(tissue, ports=ports, nodules=nodules)
 
 
+@lru_cache(maxsize=8)
+def sheet_stage(name: str, ports: str, sheet: Sheet) -> Stage:
+    """Make the stage of a sheet.
+
+    Args:
+        name: of what it is made of.
+        ports: name of a port set, or a file (`contact.port_sets`).
+        sheet: the film.
+
+    Raises:
+        InputError: there is no such port set.
+    """
+    film = Layer(
+        name="film",
+        thickness=sheet.thickness,
+        young_modulus=sheet.young_modulus,
+        poisson_ratio=POISSON_RATIO,
+        density=sheet.density,
+    )
+    instruments = instruments_through(ports, sheet.size)
+    return Stage(
+        tissue=Tissue(name=name, layers=(film,)),
+        model="sheet",
+        size=sheet.size,
+        scene=make_sheet_scene(sheet, instruments),
+        instruments=instruments,
+        linear_force=sheet.linear_force(instruments[0].shaft_radius),
+        grid=sheet.nodes,
+        sheet=sheet,
+    )
+
+
 def stage_of(task: Task) -> Stage:
     """Return the stage a task is done on."""
+    if task.sheet is not None:
+        return sheet_stage(task.tissue, task.ports, task.sheet)
     return _stage_through(task.tissue, task.ports, task.nodules)
 
 

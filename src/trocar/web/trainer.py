@@ -18,7 +18,7 @@ from trocar.devices.device import Device, HandlePose
 from trocar.devices.web import WebDevice
 from trocar.errors import TrocarError
 from trocar.realtime.servo import Servo, ServoFlag, ServoState
-from trocar.simulation import at_rest
+from trocar.simulation.kind import kind_of
 from trocar.web.messages import Guiding, Hello, Notice
 from trocar.web.source import Pose, Snapshot, Status
 from trocar.web.stage import Stage
@@ -279,4 +279,6 @@ class Trainer:
 
 
 def _servo_of(stage: Stage) -> Servo:
-    return Servo(stage.scene, at_rest(stage.scene), smoothing=SMOOTHING)
+    return Servo(
+        stage.scene, kind_of(stage.scene).at_rest(stage.scene), physics=stage.physics, smoothing=SMOOTHING
+    )

@@ -2,7 +2,8 @@
 
 A frame is a header of 64 bytes, one record of 64 bytes for the left and one for the right instrument, then
 planes of float16 with the displacement in millimetres, x fastest: u_z of each layer's upper face, top layer
-first, and u_x and u_y of the top face where the header says so. float16 has 11 significant bits, so a
+first, and u_x and u_y of the top face where the header says so. Of a sheet a plane of bytes may follow, with what is
+cut at each node (`source.Snapshot`). float16 has 11 significant bits, so a
 displacement of 1 mm is told to 0.5 um; beyond 65.5 m it would be infinite.
 
 A pose is one record of 48 bytes. Everything in it is checked here: what comes out is safe to compute with.
@@ -42,7 +43,7 @@ HEADER = np.dtype(
         ("nx", "<u2"),
         ("ny", "<u2"),
         ("in_plane", "<u2"),
-        ("zero", "<u4"),
+        ("cut", "<u4"),
     ]
 )
 INSTRUMENT = np.dtype(
@@ -131,13 +132,14 @@ def encode(snapshot: Snapshot, sequence: int) -> bytes:
                 nx,
                 ny,
                 snapshot.in_plane is not None,
-                0,
+                snapshot.cut is not None,
             ),
             HEADER,
         )
         records = np.array([_record(state) for state in snapshot.instruments], INSTRUMENT)
         bodies = [(plane * np.float32(1 / MILLIMETRE)).astype(_PLANE) for plane in planes]
-    return b"".join([header.tobytes(), records.tobytes(), *(body.tobytes() for body in bodies)])
+    ends = [] if snapshot.cut is None else [snapshot.cut.tobytes()]
+    return b"".join([header.tobytes(), records.tobytes(), *(body.tobytes() for body in bodies), *ends])
 
 
 def decode_frame(frame: bytes) -> tuple[int, Snapshot]:
@@ -155,10 +157,12 @@ def decode_frame(frame: bytes) -> tuple[int, Snapshot]:
     start = HEADER.itemsize + 2 * INSTRUMENT.itemsize
     shape = (int(header["layers"]), int(header["ny"]), int(header["nx"]))
     count = shape[0] + 2 * int(header["in_plane"])
-    if len(frame) != start + count * shape[1] * shape[2] * _PLANE.itemsize:
+    nodes = shape[1] * shape[2]
+    end = start + count * nodes * _PLANE.itemsize
+    if len(frame) != end + nodes * bool(header["cut"]):
         raise InputError("frame", f"{count} planes of {shape[2]} x {shape[1]}", f"{len(frame)} bytes")
     records = np.frombuffer(frame, INSTRUMENT, 2, HEADER.itemsize)
-    planes = np.frombuffer(frame, _PLANE, offset=start).astype(np.float32) * np.float32(MILLIMETRE)
+    planes = np.frombuffer(frame, _PLANE, count * nodes, start).astype(np.float32) * np.float32(MILLIMETRE)
     planes = planes.reshape(count, *shape[1:])
     left, right = (_state(record) for record in records)
     return int(header["sequence"]), Snapshot(
@@ -173,6 +177,7 @@ def decode_frame(frame: bytes) -> tuple[int, Snapshot]:
         instruments=(left, right),
         heights=planes[: shape[0]],
         in_plane=planes[shape[0] :] if header["in_plane"] else None,
+        cut=np.frombuffer(frame, np.uint8, offset=end).reshape(shape[1:]) if header["cut"] else None,
     )
 
 

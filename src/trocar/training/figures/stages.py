@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from trocar.contact.instrument import NAMES
 from trocar.training.metrics.attempt import Attempt
+from trocar.training.tasks.cut import Cut
 from trocar.training.tasks.find import Find
 from trocar.training.tasks.progress import Progress
 from trocar.training.tasks.step import Follow, LetGo, Lift, Press, Step, Together
@@ -65,6 +66,8 @@ def stages_of(attempt: Attempt, progress: Progress) -> list[Stretch]:
 
 
 def _one_line(one: Step, other: Step) -> bool:
+    if isinstance(one, Cut) and isinstance(other, Cut):
+        return (one.line, one.hand) == (other.line, other.hand)
     return (
         isinstance(one, Follow)
         and isinstance(other, Follow)
@@ -85,5 +88,6 @@ def _words(step: Step) -> str:
         Lift: "lift",
         LetGo: "let go",
         Find: "find and hold",
+        Cut: "cut along the line",
     }
     return f"{NAMES[step.hands[0]]}: {next((words for kind, words in does.items() if isinstance(step, kind)), 'do')}"

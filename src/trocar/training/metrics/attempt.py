@@ -22,6 +22,7 @@ from trocar.simulation import (
     TOUCH_PRESENT,
     TOUCH_TOUCHING,
 )
+from trocar.training.line import Line
 from trocar.training.metrics.motion import SHORTEST, SmoothPath, smooth_path
 
 USED = 5e-3  # [m] an instrument whose tip stayed within less was not used: a hand at rest trembles
@@ -38,6 +39,7 @@ class Attempt:
         ideal_length: of the shortest way that does the task, both tips together [m]; nan where there is none.
         errors: mistakes that the task's steps saw; nan where nobody looked.
         strength: tensile strength of the weakest layer that states one [Pa]; nan where none does.
+        line: that was to be cut along, if one was.
         sections: areas of both tips' largest plane sections [m^2], shape (2,).
     """
 
@@ -47,6 +49,7 @@ class Attempt:
     ideal_length: float = nan
     errors: float = nan
     strength: float = nan
+    line: Line | None = None
     sections: FloatArray = field(default_factory=lambda: np.full(len(NAMES), nan))
 
     def __post_init__(self) -> None:

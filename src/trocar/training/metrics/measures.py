@@ -13,6 +13,7 @@ import numpy as np
 
 from trocar.model import FloatArray
 from trocar.training.metrics.attempt import ROLL, SHAFT, WITHDRAWN, Attempt
+from trocar.training.metrics.cuts import cut_deviation, cut_deviation_most, cut_share
 from trocar.training.metrics.forces import (
     impulse,
     peak_force,
@@ -280,6 +281,30 @@ MEASURES = (
         source="mechanics; the live contact gives back no more than was put in",
         cannot_tell="what the tissue stored from what friction and damping took",
         of=work_on_tissue,
+    ),
+    Measure(
+        name="cut_deviation",
+        unit="m",
+        formula="mean distance from the line of places 0.1 mm apart along all snips that cut something, at rest",
+        source="this trainer's; FLS measures its circle by the area between cut and line",
+        cannot_tell="how far the cut came, or whether the sheet was torn",
+        of=cut_deviation,
+    ),
+    Measure(
+        name="cut_deviation_most",
+        unit="m",
+        formula="the largest of these distances",
+        source="as cut deviation",
+        cannot_tell="a slip from a whole cut that lies beside",
+        of=cut_deviation_most,
+    ),
+    Measure(
+        name="cut_share",
+        unit="1",
+        formula="share of the line's points that a snip goes by, within the line's width",
+        source="as cut deviation",
+        cannot_tell="how near; and points at both ends count alike",
+        of=cut_share,
     ),
     Measure(
         name="errors",

@@ -8,6 +8,7 @@ from difflib import get_close_matches
 from trocar.errors import InputError
 from trocar.training.tasks.alternate import alternate
 from trocar.training.tasks.bimanual_hold import bimanual_hold
+from trocar.training.tasks.cut_line import cut_line
 from trocar.training.tasks.find_nodule import find_nodule
 from trocar.training.tasks.lift import lift
 from trocar.training.tasks.oblique_reach import oblique_reach
@@ -25,6 +26,7 @@ TASKS: Mapping[str, Callable[[int], Task]] = {
     "lift": lift,
     "alternate": alternate,
     "find-nodule": find_nodule,
+    "cut-along-the-line": cut_line,
 }
 
 

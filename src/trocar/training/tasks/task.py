@@ -12,8 +12,11 @@ from trocar.contact.port_sets import instruments_through
 from trocar.errors import InputError
 from trocar.simulation.live import LIVE_SIZE
 from trocar.tissues.nodule import Nodule
+from trocar.training.line import Line
 from trocar.training.score import Marking
+from trocar.training.tasks.cut import Cut
 from trocar.training.tasks.step import Step
+from trocar.waves.sheet.sheet import Sheet
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,6 +35,7 @@ class Task:
         marking: how it is marked.
         pass_source: where the pass mark comes from.
         nodules: in its tissue.
+        sheet: it is done on, in the place of a preset; `tissue` only names it then.
     """
 
     name: str
@@ -45,6 +49,7 @@ class Task:
     marking: Marking
     pass_source: str
     nodules: tuple[Nodule, ...] = ()
+    sheet: Sheet | None = None
 
     def __post_init__(self) -> None:
         if not self.steps:
@@ -75,6 +80,11 @@ class Task:
             "pass_score": self.marking.pass_score,
             "pass_source": self.pass_source,
         }
+
+    @property
+    def line(self) -> Line | None:
+        """What is to be cut along, if anything is."""
+        return next((step.line for step in self.steps if isinstance(step, Cut)), None)
 
     @property
     def ideal_length(self) -> float:
