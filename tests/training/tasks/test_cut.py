@@ -1,5 +1,10 @@
 """The step of scissors, moment by moment, and that the scripted expert's cut parts the sheet."""
 
+import json
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -7,6 +12,7 @@ from trocar.simulation import CUT, FORCE, RECORD, RECORD_JAW, TIP, TOUCH, TOUCH_
 from trocar.simulation.kind import SHEET
 from trocar.training.headless import attempt
 from trocar.training.session import scene_of
+from trocar.training.table import write_table
 from trocar.training.tasks.catalogue import LEVELS, task
 from trocar.training.tasks.moment import Moment
 
@@ -68,8 +74,25 @@ def test_the_line_bends_more_and_is_narrower_with_each_level():
     assert [line.width for line in lines] == [2e-3, 1.5e-3, 1e-3]
 
 
-def test_the_experts_cut_parts_the_sheet_along_the_line():
-    done = attempt("cut-along-the-line", seed=2)
+@pytest.fixture(scope="module")
+def done():
+    """The scripted expert's attempt."""
+    return attempt("cut-along-the-line", seed=2)
+
+
+def test_the_card_of_a_cut_follows_from_its_table_alone(done, tmp_path):
+    write_table(tmp_path / "attempt.csv", done.task, done.recording)
+    (tmp_path / "card.json").write_text(json.dumps(done.card.as_dict()))
+    recompute = Path(__file__).parents[3] / "bench" / "recompute_metrics.py"
+    files = [str(tmp_path / name) for name in ("attempt.csv", "card.json")]
+    found = subprocess.run(
+        [sys.executable, "-I", str(recompute), *files], capture_output=True, text=True, check=False
+    )
+    assert found.returncode == 0, found.stdout + found.stderr
+    assert all(f"\n{name} " in found.stdout for name in ("cut_deviation", "cut_deviation_most", "cut_share"))
+
+
+def test_the_experts_cut_parts_the_sheet_along_the_line(done):
     scene = scene_of(done.task)
     state = SHEET.at_rest(scene)
     SHEET.play(scene, state, done.recording.poses, np.zeros((len(done.recording.poses), 2, RECORD)))
