@@ -13,6 +13,7 @@ import numpy as np
 ABOVE = 9e-3  # [m] over the tissue, on the way to a mark: a swing about the port dips
 LATEST = 3.0  # [s] after which a movement is seen, by a page drawn by software
 FOLLOWED = 0.25  # [s] in which a tip that may follow has followed, once the trainer has the pose
+AHEAD = 5  # marks from where a cut ends to a bite further on
 SIDES = {"left": 0, "right": 1}
 
 
@@ -65,11 +66,12 @@ class Obedient(ABC):
         marks = [mark for mark in said["marks"] if SIDES[mark["hand"]] == hand]
         self.take(hand)
         tip, force = self.tip(hand), float(np.linalg.norm(self.state.instruments[hand].force))
-        place = np.array(marks[0]["place_m"]) if marks else tip[:2]
+        next_bite = min(AHEAD, len(marks) - 1) if "scissors" in said["words"] else 0
+        place = np.array(marks[next_bite]["place_m"]) if marks else tip[:2]
         least, most = said["least_n"][hand], said["most_n"][hand]
         wanted = min(0.5 * (least + most), 0.038) if most else 0.03
         match hint:
-            case "Go to the mark." | "Go to the mark, jaw open.":
+            case "Go to the mark." | "Go to the mark, jaw open." | "Go to where the cut ends, blades open.":
                 self.jaw(hand, is_open=True)
                 away = np.hypot(*(place - tip[:2]))
                 up = ABOVE if away > 2 * marks[0]["radius_m"] else max(tip[2], 0.5e-3)
@@ -87,14 +89,17 @@ class Obedient(ABC):
             case "Hold it so.":
                 if least and not 0.8 * wanted < force < 1.3 * wanted:
                     self.press(hand, tip[:2], tip, force, wanted)
-            case "Close the jaw on it.":
+            case "Close the jaw on it." | "Close the blades.":
                 self.jaw(hand, is_open=False)
+            case "On along the line, by a bite.":
+                self.move(hand, [*place, tip[2]], seen=tip)
             case "Feel where less gives way, and close the jaw on it there.":
                 self.take_hold(hand, np.array(self.lump), tip, force, wanted)
             case "Raise it, straight up.":
                 self.move(hand, [*place, tip[2] + 1.2e-4], seen=tip)
             case (
                 "Open the jaw."
+                | "Open the blades."
                 | "Open the jaw again: it closed on nothing."
                 | "Nothing is here. Open the jaw, and feel on."
             ):

@@ -62,8 +62,8 @@ def test_a_file(tmp_path):
         (("[left]", "[lefft]"), r"lefft: expected \[left\] and \[right\]"),
         (("[left]\nport_mm = [-50, -10, 100]\ntip", "[left]\ntip"), r"\[left\] port_mm: expected a value"),
         (
-            ('tip = "hook"', 'tip = "scissors"'),
-            "expected one of probe, grasper, needle-holder, hook, got 'scissors'",
+            ('tip = "hook"', 'tip = "saw"'),
+            "expected one of probe, grasper, needle-holder, hook, scissors, got 'saw'",
         ),
         (('tip = "hook"', "tip = 3"), "tip: expected one of"),
         (("[110, -10, 90]", "[110, -10]"), "port_mm: expected three numbers"),

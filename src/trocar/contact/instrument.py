@@ -51,8 +51,8 @@ class TipKind(StrEnum):
 
     @property
     def has_jaw(self) -> bool:
-        """Whether it opens and closes."""
-        return self in (TipKind.GRASPER, TipKind.NEEDLE_HOLDER, TipKind.SCISSORS)
+        """Whether it opens, closes and holds."""
+        return self in (TipKind.GRASPER, TipKind.NEEDLE_HOLDER)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

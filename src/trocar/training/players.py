@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from math import dist, inf, isinf, isnan, nan
+from math import inf, isinf, isnan, nan
 from typing import Protocol
 
 import numpy as np
@@ -35,7 +35,6 @@ _GAIN = 0.1  # [m/(N s)] by which a hand corrects its depth: on skin it is there
 _CLOSE = 0.25  # [s] for a jaw
 _LIGHTEST = 0.4  # of the force that is right, that anybody presses with at first
 _RAISING = 0.125  # of the speed it comes down with, with tissue in the jaw
-_BITE = 1.2e-3  # [m] along a line from where the cut ends to where a hand sets the tip for the next snip
 _SNIPPED = 0.5  # of the most force, to cut with
 _LEARNING = 3e-3  # [1/tick] of an error that is seen is taken away
 
@@ -191,15 +190,8 @@ def _wishes(step: Step | None) -> dict[int, Wish]:
             )
         }
     if isinstance(step, Cut):
-        points = step.line.points
-        ahead = next(
-            (n for n in range(step.to, len(points)) if dist(points[n], points[step.to]) >= _BITE), -1
-        )
-        return {
-            step.hand: Wish(
-                place=points[ahead], force=_SNIPPED * step.most, aim=step.line, slide=True, snip=True
-            )
-        }
+        force = _SNIPPED * step.most
+        return {step.hand: Wish(place=step.ahead, force=force, aim=step.line, slide=True, snip=True)}
     assert step is None or isinstance(step, LetGo)
     return {}
 

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import dist
 
 from trocar.contact.instrument import NAMES
 from trocar.training.line import Line
 from trocar.training.tasks.moment import Moment
-from trocar.training.tasks.step import SHUT, Band, Mark
+from trocar.training.tasks.step import SHUT, Band, Mark, Place
 
-_OPEN = 0.6  # of the blades, from where on they have the sheet between them
-_REACH = 4e-3  # [m] from the point: nearer, blades may well reach it
+BITE = 1.2e-3  # [m] along a line from where a cut ends to where the tip is set for the next snip
+_NEAR = 8e-4  # [m] from there
+_REACH = 4e-3  # [m] from there: farther off, it goes through the air
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,14 +62,24 @@ class Cut:
         snip = moment.snip(self.hand)
         return snip is not None and self.line.passes(snip, self.to)
 
+    @property
+    def ahead(self) -> Place:
+        """Where the tip goes next: a bite on from the point, or the line's end."""
+        points = self.line.points
+        ahead = (place for place in points[self.to :] if dist(place, points[self.to]) >= BITE)
+        return next(ahead, points[-1])
+
     def hint(self, moment: Moment) -> str:
         """Return what is next."""
-        if moment.away(self.hand, self.line.points[self.to]) > _REACH:
-            return "Go to where the cut ends."
+        if moment.jaw(self.hand) < SHUT:
+            return "Open the blades."
+        away = moment.away(self.hand, self.ahead)
+        if away > _REACH:
+            return "Go to where the cut ends, blades open."
         if moment.force(self.hand) > self.most:
             return "Softer."
-        if moment.jaw(self.hand) < (SHUT if moment.snip(self.hand) is None else _OPEN):
-            return "Open the blades."
+        if away > _NEAR:
+            return "On along the line, by a bite."
         return "Close the blades." if moment.touches(self.hand) else "Down, until it touches."
 
     def mistake(self, moment: Moment) -> str:
