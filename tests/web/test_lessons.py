@@ -258,8 +258,12 @@ def test_a_task_with_ports_of_its_own_changes_the_stage_and_the_page_is_greeted_
 
 
 def test_on_another_tissue_no_frame_comes_before_its_greeting(school):
-    """The pad has two layers, skin three; a page that is shown other layers than it was told of gives up."""
+    """The sheet has one layer, the pad two, skin three; a page shown other layers than it was told of gives up."""
     visitor, _, _ = school
+    # Where it is compiled first, nobody listens so long.
+    number = begin(visitor, task="cut-along-the-line")[1]["id"]
+    visitor.ask(f"/api/attempts/{number}/end", {})
+    until(lambda: stands(visitor, number)["status"] != "running", PATIENCE)
     seen = []
     with visitor.live() as (stream, greeting):
         layers = len(greeting["tissue"]["layers"])
@@ -271,17 +275,18 @@ def test_on_another_tissue_no_frame_comes_before_its_greeting(school):
                 sequence, snapshot = decode_frame(message)
                 stream.send(json.dumps({"type": "ack", "sequence": sequence}))
                 seen.append((layers, len(snapshot.heights)))
+                assert (snapshot.cut is not None) == (len(snapshot.heights) == 1)  # the sheet's alone
             elif '"hello"' in message:
                 layers = len(json.loads(message)["tissue"]["layers"])
 
-        for task, expected in (("find-nodule", 2), ("palpate", 3)):
+        for task, expected in (("find-nodule", 2), ("palpate", 3), ("cut-along-the-line", 1)):
             number = begin(visitor, task=task)[1]["id"]
             deadline = time.monotonic() + PATIENCE
             while seen[-5:] != [(expected, expected)] * 5 and time.monotonic() < deadline:
                 watch()
             visitor.ask(f"/api/attempts/{number}/end", {})
             until(lambda number=number: stands(visitor, number)["status"] != "running", PATIENCE)
-    assert {own for own, _ in seen} == {2, 3}
+    assert {own for own, _ in seen} == {1, 2, 3}
     assert [pair for pair in seen if pair[0] != pair[1]] == []
 
 

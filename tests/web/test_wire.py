@@ -57,6 +57,18 @@ def snapshot(**changes):
     return Snapshot(**(content | changes))
 
 
+def test_what_is_cut_comes_after_the_planes():
+    cut = np.array([[1, 2], [4, 8], [15, 0]], np.uint8)
+    plain, frame = (encode(snapshot(cut=one), 2) for one in (None, cut))
+    assert frame[60:64] == bytes([1, 0, 0, 0])
+    assert frame[:60] + plain[60:64] + frame[64:-6] == plain
+    assert frame[-6:] == cut.tobytes()
+    assert np.array_equal(decode_frame(frame)[1].cut, cut)
+    assert decode_frame(plain)[1].cut is None
+    with pytest.raises(InputError, match="planes"):
+        decode_frame(frame[:-1])
+
+
 def test_a_frame_has_the_bytes_of_the_contract():
     golden = bytes.fromhex(GOLDEN_HEADER + 2 * GOLDEN_STATE + GOLDEN_HEIGHTS)
     assert encode(snapshot(), 2) == golden

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 
+import { HEADER } from "../../src/wire/contract";
 import { frameSequence, readFrame } from "../../src/wire/frame";
 import { fromHalf } from "../../src/wire/half";
 import { WireError } from "../../src/wire/messages";
@@ -44,6 +45,16 @@ describe("a frame", () => {
     expect(frame.inPlane).toHaveLength(8);
     expect(frame.inPlane?.[0]).toBeCloseTo(1e-3, 6);
     expect(frame.inPlane?.[7]).toBeCloseTo(-1e-3, 6);
+  });
+
+  it("gives what is cut of a sheet, and nothing of what cannot be", () => {
+    expect(frame.cut).toBeNull();
+    const plain = new Uint8Array(bytes(FRAME));
+    const cut = new Uint8Array([...plain, 1, 2, 4, 15]);
+    new DataView(cut.buffer).setUint32(HEADER.cut, 1, true);
+    expect([...(readFrame(cut.buffer).cut as Uint8Array)]).toEqual([1, 2, 4, 15]);
+    expect(readFrame(cut.buffer).inPlane).toEqual(frame.inPlane);
+    expect(() => readFrame(cut.slice(0, -1).buffer)).toThrow(WireError);
   });
 
   it("is refused when it is no such frame", () => {
