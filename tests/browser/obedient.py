@@ -13,7 +13,7 @@ import numpy as np
 ABOVE = 9e-3  # [m] over the tissue, on the way to a mark: a swing about the port dips
 LATEST = 3.0  # [s] after which a movement is seen, by a page drawn by software
 FOLLOWED = 0.25  # [s] in which a tip that may follow has followed, once the trainer has the pose
-AHEAD = 5  # marks from where a cut ends to a bite further on
+AHEAD = 4  # marks from where a cut ends to a bite further on
 SIDES = {"left": 0, "right": 1}
 
 

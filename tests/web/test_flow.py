@@ -34,6 +34,7 @@ def test_the_server_speaks_first_and_says_what_there_is(guest):
             "protocol",
             "tissue",
             "grid",
+            "shape",
             "instruments",
             "camera",
             "linear_force_n",

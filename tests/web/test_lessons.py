@@ -260,7 +260,7 @@ def test_a_task_with_ports_of_its_own_changes_the_stage_and_the_page_is_greeted_
 def test_on_another_tissue_no_frame_comes_before_its_greeting(school):
     """The sheet has one layer, the pad two, skin three; a page shown other layers than it was told of gives up."""
     visitor, _, _ = school
-    # Where it is compiled first, nobody listens so long.
+    # Where the sheet's code is compiled first, beginning takes longer than a stream is kept that nobody reads.
     number = begin(visitor, task="cut-along-the-line")[1]["id"]
     visitor.ask(f"/api/attempts/{number}/end", {})
     until(lambda: stands(visitor, number)["status"] != "running", PATIENCE)

@@ -40,7 +40,11 @@ export class Keyboard implements Device {
       return true;
     }
     if (code === "Space") {
-      if (!repeat) this.open[this.active.side] = !this.open[this.active.side];
+      if (!repeat) {
+        const side = this.active.side;
+        this.open[side] = !this.open[side];
+        this.reached[side] = Number.NaN; // asked for again before it was there, it must still get there
+      }
       return true;
     }
     if (!(code in MOVES || code in SLIDES || code in TURNS)) return false;

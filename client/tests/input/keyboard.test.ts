@@ -73,6 +73,22 @@ describe("the keyboard", () => {
     expect(keyboard.poses(both, VIEW, 0.05)[1]?.jaw).toBeCloseTo(0.2, 12);
   });
 
+  it("closes a jaw again that was asked to open and is not there yet", () => {
+    const keyboard = new Keyboard(new ActiveHand());
+    const both = hands();
+    const after = (turns: number): number => {
+      keyboard.press("Space", false, false);
+      for (let i = 0; i < turns; i++) {
+        const right = keyboard.poses(both, VIEW, 0.05)[RIGHT];
+        if (right) both[RIGHT] = { ...both[RIGHT], pose: right };
+      }
+      return both[RIGHT].pose.jaw;
+    };
+    expect(after(10)).toBe(0);
+    expect(after(2)).toBeGreaterThan(0);
+    expect(after(10)).toBe(0);
+  });
+
   it("leaves other keys to the page", () => {
     expect(new Keyboard(new ActiveHand()).press("F5", false, false)).toBe(false);
   });

@@ -45,6 +45,7 @@ from trocar.simulation.step import (
     JAW,
     MOMENT,
     OPEN,
+    OPENED,
     OUTSIDE,
     PLACE,
     PRESENT,
@@ -280,5 +281,6 @@ def _answer(
     )
     for i in range(5):
         record[CUT + i] = state.snips[t, i]
+    record[OPENED] = flags[_OPENED]
     if held and force[0] ** 2 + force[1] ** 2 + force[2] ** 2 > GRIP**2:
         state.counts[t, HELD] = 0

@@ -50,7 +50,8 @@ TIP, DIRECTION, RECORD_ROLL, RECORD_JAW = 0, 3, 6, 7
 FORCE, HANDLE_FORCE, TOUCH, DEPTH, OUTSIDE = 8, 11, 14, 15, 16
 DRAG, PLACE, MOMENT, TWIST = 17, 19, 21, 24
 CUT = 25  # the last snip, for a while after it: links cut, rest places x, y of both ends (`sheet_step`)
-RECORD = 30
+OPENED = 30  # whether blades have been wide open since they last closed
+RECORD = 31
 TOUCH_PRESENT, TOUCH_TOUCHING, TOUCH_HOLDING = 1, 2, 4
 
 CLOSED, OPEN = (

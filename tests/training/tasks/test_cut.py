@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from trocar.simulation import CUT, FORCE, RECORD, RECORD_JAW, TIP, TOUCH, TOUCH_PRESENT, TOUCH_TOUCHING
+from trocar.simulation import CUT, FORCE, OPENED, RECORD, TIP, TOUCH, TOUCH_PRESENT, TOUCH_TOUCHING
 from trocar.simulation.kind import SHEET
 from trocar.training.headless import attempt
 from trocar.training.session import scene_of
@@ -20,10 +20,10 @@ STEP = task("cut-along-the-line").steps[40]
 PLACE = STEP.line.points[40]
 
 
-def moment(*, at=STEP.ahead, height=0.0, force=0.01, jaw=1.0, snip=None):
+def moment(*, at=STEP.ahead, height=0.0, force=0.01, opened=1.0, snip=None):
     records = np.zeros((2, RECORD))
     records[1, TIP : TIP + 3] = (*at, height)
-    records[1, FORCE + 2], records[1, RECORD_JAW] = force, jaw
+    records[1, FORCE + 2], records[1, OPENED] = force, opened
     records[1, TOUCH] = TOUCH_PRESENT + (TOUCH_TOUCHING if force else 0)
     if snip is not None:
         records[1, CUT : CUT + 5] = (1.0, *snip[0], *snip[1])
@@ -50,7 +50,7 @@ def test_it_is_met_by_a_snip_near_by_and_wrong_by_one_beside():
 @pytest.mark.parametrize(
     ("seen", "words"),
     [
-        ({"jaw": 0.0}, "Open the blades."),
+        ({"opened": 0.0}, "Open the blades."),
         ({"at": (0.05, 0.05)}, "Go to where the cut ends, blades open."),
         ({"at": PLACE}, "On along the line, by a bite."),
         ({"force": 0.06}, "Softer."),

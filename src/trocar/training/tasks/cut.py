@@ -8,10 +8,10 @@ from math import dist
 from trocar.contact.instrument import NAMES
 from trocar.training.line import Line
 from trocar.training.tasks.moment import Moment
-from trocar.training.tasks.step import SHUT, Band, Mark, Place
+from trocar.training.tasks.step import Band, Mark, Place
 
-BITE = 1.2e-3  # [m] along a line from where a cut ends to where the tip is set for the next snip
-_NEAR = 8e-4  # [m] from there
+BITE = 1.0e-3  # [m] along a line from where a cut ends to where the tip is set for the next snip
+_NEAR = 4e-4  # [m] from there
 _REACH = 4e-3  # [m] from there: farther off, it goes through the air
 
 
@@ -71,7 +71,7 @@ class Cut:
 
     def hint(self, moment: Moment) -> str:
         """Return what is next."""
-        if moment.jaw(self.hand) < SHUT:
+        if not moment.opened(self.hand):
             return "Open the blades."
         away = moment.away(self.hand, self.ahead)
         if away > _REACH:

@@ -25,7 +25,7 @@ _PER_METRE = 1e4  # [s/m]: a millimetre beside the line, on average, costs what 
 def cut_line(level: int) -> Task:
     """Return it at a level."""
     line = Line(points=_points(level), width=0.5 * RADII[level])
-    plain = marking(level, expert_time=22.0)
+    plain = marking(level, expert_time=23.0)
     return Task(
         name="cut-along-the-line",
         title="Cut along the line",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from trocar.model import FloatArray
-from trocar.simulation import CUT, DEPTH, FORCE, RECORD_JAW, TIP, TOUCH, TOUCH_HOLDING, TOUCH_TOUCHING
+from trocar.simulation import CUT, DEPTH, FORCE, OPENED, RECORD_JAW, TIP, TOUCH, TOUCH_HOLDING, TOUCH_TOUCHING
 
 STRAYED = 1e-3  # [m] below the rest surface; no dent that a tip has just left is so deep
 
@@ -56,6 +56,10 @@ class Moment:
         """Return both ends, at rest, of what blades cut last, for a while after it [m]; None of what cut nothing."""
         x0, y0, x1, y1 = self.records[hand, CUT + 1 : CUT + 5].tolist()
         return ((x0, y0), (x1, y1)) if x0 or y0 or x1 or y1 else None
+
+    def opened(self, hand: int) -> bool:
+        """Return whether blades have been wide open since they last closed."""
+        return bool(self.records[hand, OPENED])
 
     def away(self, hand: int, place: tuple[float, float]) -> float:
         """Return how far a tip is from a place, seen from above [m]."""
