@@ -59,6 +59,7 @@ def test_however_it_ends_nothing_stays_behind(ending):
         (["--model", "fea"], "wave-membrane or wave-solid"),
         (["--ports", "oblik"], "did you mean oblique?"),
         (["--mesh", "kidney"], "liver, or a file that ends in"),
+        (["--mesh", "liver", "--tissue", "liver", "--ports", "oblik"], "did you mean oblique?"),
         (["--mesh", "none.stl"], "a mesh file that can be read"),
         (["--mesh-up", "+y"], "--mesh-up goes with --mesh"),
         (["--mesh", "liver", "--nodule", "1,1,8,5,300"], "a place over the organ"),

@@ -205,12 +205,15 @@ def _organ_stage(
     status: Status,
 ) -> Stage:
     """Read an organ's mesh and find what answers a press anywhere on it."""
+    from trocar.contact.port_sets import instruments_over
+    from trocar.simulation.live import LIVE_SIZE
     from trocar.simulation.live_organ import live_organ, organ_mesh
     from trocar.tissues.catalogue import tissue as preset
     from trocar.web.stage import organ_stage
 
     status.update("reading the mesh ...")
     organ = organ_mesh(mesh, preset(tissue), nodules=nodules, **reading)
+    instruments_over(ports, organ.size, LIVE_SIZE)  # a mistake in them is told before the long work
     status.update("finding the mesh's modes; kept for the next time ...")
 
     def told(done: int, total: int) -> None:
