@@ -57,7 +57,7 @@ def test_it_films_a_trainer_and_keeps_every_scene(bench, tmp_path, capsys):
         server.shutdown()
     said = capsys.readouterr()
     assert code == 0, said.err
-    assert "oblique: left out" in said.out
+    assert "oblique, organ: left out" in said.out
     assert {path.name for path in tmp_path.iterdir()} == {
         f"{name}.jpg" for name in ("rest", "press", "slide", "lift", "headset")
     }

@@ -26,7 +26,7 @@ class Kind:
     Attributes:
         at_rest: (scene) -> state.
         advance: (scene, state, poses, records) -> bool: one tick; compiled, as all below.
-        amplitudes: (scene, state, out) -> None: writes what is shown, shape (layers, *modes).
+        amplitudes: (scene, state, out) -> None: writes what is shown, shape (layers, M, N).
         come_to_rest: (scene, state) -> None.
         play: (scene, state, poses, records) -> bool: many ticks.
     """
