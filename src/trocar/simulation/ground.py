@@ -1,7 +1,10 @@
 """What a scene asks of the tissue under it: a flat block's waves, or a mesh's modes at the sites of its surface.
 
-Both have calls of the same names; the compiler chooses by the type of the tick or of its state. On a mesh a patch lies
-in the tangent plane of the place under the tip, and the tip's lowest point is that along the normal there.
+Both have calls of the same names; the compiler chooses by the type of the tick or of its state. The functions that
+stand here are empty: they are for compiled code alone, and `_either` says what it takes for each.
+
+On a mesh a patch lies in the tangent plane of the place under the tip, and the tip's lowest point is that along the
+normal there.
 """
 
 from __future__ import annotations

@@ -55,7 +55,7 @@ class Stage:
 
     Attributes:
         tissue: the layers.
-        model: of their waves, one of `LIVE_MODELS`.
+        model: of their waves, one of `LIVE_MODELS`, or `ORGAN_MODEL`.
         size: sides of the block [m].
         scene: made of them.
         instruments: left and right.
