@@ -9,6 +9,7 @@ from browser.obedient import SIDES, Obedient
 
 FIELD = np.radians(72)  # of the endoscope's view
 WORKING_DISTANCE = 0.07  # [m] from eye to target
+TWO_FRAMES = "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 NOTCH = 100 / 0.002  # [px/m] of the wheel
 
 
@@ -56,6 +57,10 @@ class ByHand(Obedient):
         self.shift(-float(beside @ right) / (ratio * pixel), float(beside @ up) / (ratio * pixel))
         if abs(slide) > 1e-6:
             self.page.mouse.wheel(0, -slide * NOTCH)
+
+    def see(self, hand, seen, distance):
+        self.page.evaluate(TWO_FRAMES)  # a slow page takes a mouse and its wheel in different ones
+        super().see(hand, seen, distance)
 
     def shift(self, right, down):
         """Move the mouse by so much [px]; before it would leave the picture it is put back to the middle."""

@@ -12,6 +12,8 @@ import numpy as np
 
 ABOVE = 9e-3  # [m] over the tissue, on the way to a mark: a swing about the port dips
 LATEST = 3.0  # [s] after which a movement is seen, by a page drawn by software
+AT_REST = 5e-5  # [m] that a tip at rest may move
+RESTING = 0.06  # [s] after which it is taken to rest
 FOLLOWED = 0.25  # [s] in which a tip that may follow has followed, once the trainer has the pose
 AHEAD = 4  # marks from where a cut ends to a bite further on
 SIDES = {"left": 0, "right": 1}
@@ -152,13 +154,17 @@ class Obedient(ABC):
         self.see(hand, seen, np.linalg.norm(np.asarray(to) - seen))
 
     def see(self, hand, seen, distance):
-        """Wait until most of a movement is seen, or until it will not come; the tissue may hold a tip back."""
+        """Wait until most of a movement is seen and the tip rests, or until it will not come: tissue holds tips back."""
         before = self.state.pose_sequence[hand]
+        rests, since = np.array(seen), time.monotonic()
         end = time.monotonic() + LATEST
         while time.monotonic() < end:
             self.page.wait_for_timeout(5)
             self.state = self.watcher.look()
-            if np.linalg.norm(self.tip(hand) - seen) > 0.7 * distance:
+            if np.linalg.norm(self.tip(hand) - rests) > AT_REST:
+                rests, since = self.tip(hand), time.monotonic()
+            moved = np.linalg.norm(self.tip(hand) - seen) > 0.7 * distance
+            if moved and time.monotonic() - since > RESTING:
                 return
             if self.state.pose_sequence[hand] > before:
                 before, end = self.state.pose_sequence[hand], min(end, time.monotonic() + FOLLOWED)
