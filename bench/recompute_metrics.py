@@ -181,15 +181,15 @@ def largest_work(hands):
     return most
 
 
-def snips(hands):
-    """Return both ends of every snip that cut something: where what the table tells of a hand's last one changes."""
+def snips(hands, *, idle):
+    """Return both ends of every snip: where what the table tells of a hand's last changes; idle ones cut nothing."""
     found = []
     for hand in hands:
         told = np.stack(
             [hand[f"cut_{name}"] for name in ("links", "from_x_m", "from_y_m", "to_x_m", "to_y_m")], 1
         )
         before = np.vstack([np.zeros(5), told[:-1]])
-        new = (told != before).any(axis=1) & (told[:, 0] > 0)
+        new = (told != before).any(axis=1) & (told[:, 1:].any(axis=1) if idle else told[:, 0] > 0)
         found += [(row[1:3], row[3:5]) for row in told[new]]
     return found
 
@@ -213,13 +213,14 @@ def deviations(cuts, line):
 
 
 def gone_by(cuts, line, width):
-    """Return the share of the line's points that a cut, 0.3 mm longer at either end, goes by within the width."""
+    """Return the share of the line's points that a cut goes by within the width, and half a step before and after."""
     count = 0
-    for place in line:
+    for number, place in enumerate(line):
+        half = 0.5 * hypot(*(line[max(number, 1)] - line[max(number - 1, 0)]))
         for begin, end in cuts:
             long = hypot(*(end - begin))
             along, to = (end - begin) / long, place - begin
-            if -3e-4 <= to @ along <= long + 3e-4 and abs(to[0] * along[1] - to[1] * along[0]) <= width:
+            if half <= to @ along <= long - half and abs(to[0] * along[1] - to[1] * along[0]) <= width:
                 count += 1
                 break
     return count / len(line)
@@ -274,8 +275,8 @@ def recompute(table, constants):
     arcs = [one for one in (median_arc_length(tip.speed()) for tip in tips) if not isnan(one)]
     cut = (nan, nan, nan)
     if constants["line_m"] is not None:
-        cuts, line = snips(hands), np.array(constants["line_m"])
-        cut = (*deviations(cuts, line), gone_by(cuts, line, constants["line_width_m"]))
+        line, width = np.array(constants["line_m"]), constants["line_width_m"]
+        cut = (*deviations(snips(hands, idle=False), line), gone_by(snips(hands, idle=True), line, width))
     strength = constants["tensile_strength_pa"]
     stress = max(one.max() / area for one, area in zip(forces, constants["tip_sections_m2"], strict=True))
     worst = forces.max(axis=0)

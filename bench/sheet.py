@@ -52,7 +52,7 @@ def opening(links: int, cells: int, size: float, stretch: float) -> float:
     state = taut(lattice)
     h, n, row = lattice.spacing, lattice.columns, cells // 2
     half = links * h / 2
-    cut_along(lattice, state.whole, size / 2 - half, (row + 0.5) * h, size / 2 + half, (row + 0.5) * h)
+    cut_along(lattice, state, size / 2 - half, (row + 0.5) * h, size / 2 + half, (row + 0.5) * h)
     _rest(lattice, state)
     moved = state.places[1].reshape(-1, n)
     return float((moved[row + 1] - moved[row]).max()) / (4 * sheet.tension / sheet.stiffness * half)

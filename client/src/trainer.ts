@@ -175,6 +175,6 @@ export class Trainer {
 }
 
 /** What of a greeting is drawn. */
-function drawnOf({ tissue, grid, shape, instruments, camera }: Hello): string {
-  return JSON.stringify([tissue, grid, shape, instruments, camera]);
+function drawnOf({ tissue, grid, shape, under_m, instruments, camera }: Hello): string {
+  return JSON.stringify([tissue, grid, shape, under_m, instruments, camera]);
 }

@@ -25,6 +25,7 @@ export function hello(): Hello {
     tissue: { name: "skin", size_m: [0.06, 0.06], layers: [{ name: "dermis", thickness_m: 0.0015 }] },
     grid: [2, 2],
     shape: null,
+    under_m: 0,
     instruments: [
       instrument("left", LEFT_PORT, [0.02, 0.03, 0.01]),
       instrument("right", RIGHT_PORT, [0.04, 0.03, 0.01]),

@@ -154,7 +154,7 @@ class Obedient(ABC):
         self.see(hand, seen, np.linalg.norm(np.asarray(to) - seen))
 
     def see(self, hand, seen, distance):
-        """Wait until most of a movement is seen and the tip rests, or until it will not come: tissue holds tips back."""
+        """Wait until most of a movement is seen and the tip rests, or until no more will come: tissue holds back."""
         before = self.state.pose_sequence[hand]
         rests, since = np.array(seen), time.monotonic()
         end = time.monotonic() + LATEST

@@ -63,6 +63,7 @@ def hello(left: str = "grasper", right: str = "probe", steered_by: str = "page")
             "layers": [{"name": name, "thickness_m": thickness} for name, thickness in LAYERS],
         },
         "grid": [NODES, NODES],
+        "under_m": 0.0,
         "instruments": [
             instrument("left", left, (-0.05, -0.01, 0.1), (0.018, 0.028, 0.006)),
             instrument("right", right, (0.11, -0.01, 0.1), (0.042, 0.030, 0.006)),

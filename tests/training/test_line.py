@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from trocar.simulation import CUT, RECORD, TOUCH
-from trocar.training.line import SLACK, Line
+from trocar.training.line import Line
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.metrics.cuts import cut_deviation, cut_deviation_most, cut_share, snips
 
@@ -15,10 +15,18 @@ STRAIGHT = Line(points=tuple((1e-3 * k, 0.0) for k in range(11)), width=5e-4)
 
 def test_a_snip_passes_what_lies_beside_it():
     snip = ((2.1e-3, 4e-4), (4.8e-3, -4e-4))
-    assert [n for n in range(11) if STRAIGHT.passes(snip, n)] == [2, 3, 4, 5]  # 2 and 5 by the slack
+    assert [n for n in range(11) if STRAIGHT.passes(snip, n)] == [3, 4]  # 2.6 mm to 4.3 mm
     assert not any(STRAIGHT.passes(((2e-3, 6e-4), (5e-3, 6e-4)), n) for n in range(11))
-    point = ((3e-3, 0.5 * SLACK), (3e-3, 0.5 * SLACK))
-    assert [n for n in range(11) if STRAIGHT.passes(point, n)] == [3]
+    assert not any(STRAIGHT.passes(((3e-3, 0.0), (3e-3, 0.0)), n) for n in range(11))
+
+
+def test_snips_that_pass_all_points_leave_no_gap():
+    together = set()
+    for end, begin in np.random.default_rng(5).uniform(2e-3, 8e-3, (400, 2)):
+        cut = [((-1e-3, 0.0), (end, 0.0)), ((begin, 0.0), (11e-3, 0.0))]
+        if all(any(STRAIGHT.passes(snip, n) for snip in cut) for n in range(11)):
+            together.add(begin < end)
+    assert together == {True}
 
 
 def test_distances_are_those_of_a_slant():
@@ -43,7 +51,7 @@ def test_what_was_cut_is_told_once_and_air_is_not():
     assert snips(found) == [((0.0, 1e-4), (5e-3, 1e-4)), ((5e-3, 0.0), (7e-3, 3e-4))]
     assert cut_deviation_most(found) == pytest.approx(3e-4)
     assert 1e-4 < cut_deviation(found) < 1.5e-4
-    assert cut_share(found) == pytest.approx(8 / 11)
+    assert cut_share(found) == pytest.approx(5 / 11)
 
 
 def test_where_nothing_is_to_be_cut_there_is_no_deviation():

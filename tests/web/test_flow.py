@@ -35,6 +35,7 @@ def test_the_server_speaks_first_and_says_what_there_is(guest):
             "tissue",
             "grid",
             "shape",
+            "under_m",
             "instruments",
             "camera",
             "linear_force_n",

@@ -39,7 +39,7 @@ def test_a_frame_of_it_shows_where_it_is_and_what_is_cut(stage):
     planes = np.zeros((stage.scene.layers, *stage.scene.modes))
     SHEET.amplitudes(stage.scene, state, planes)
     whole = stage.snapshot(np.zeros((2, RECORD)), planes, tick=1, time=1e-3, status=Status.ALIVE)
-    cut_along(stage.scene.lattice, state.lattice.whole, 0.02, 0.0292, 0.04, 0.0292)
+    cut_along(stage.scene.lattice, state.lattice, 0.02, 0.0292, 0.04, 0.0292)
     state.lattice.places[:, 800] = (1e-3, -5e-4, 2e-3)
     SHEET.amplitudes(stage.scene, state, planes)
     shown = stage.snapshot(np.zeros((2, RECORD)), planes, tick=2, time=2e-3, status=Status.ALIVE)
@@ -48,5 +48,6 @@ def test_a_frame_of_it_shows_where_it_is_and_what_is_cut(stage):
     assert seen.in_plane.reshape(2, -1)[:, 800] == pytest.approx((1e-3, -5e-4), rel=1e-3)
     parted = seen.cut != whole.cut
     assert parted.any()
-    rows = np.flatnonzero(parted.any(axis=1))
-    assert set(rows) == {19}  # links ahead of the nodes just below y = 29.2 mm
+    assert set(np.nonzero(parted)[1]) == {19}  # links ahead of the nodes just below y = 29.2 mm
+    assert not parted[0].any()
+    assert set(seen.cut[1:][parted[1:]]) == {round(255 * (0.0292 / 1.5e-3 - 19))}

@@ -58,11 +58,11 @@ def snapshot(**changes):
 
 
 def test_what_is_cut_comes_after_the_planes():
-    cut = np.array([[1, 2], [4, 8], [15, 0]], np.uint8)
+    cut = np.arange(0, 252, 14, dtype=np.uint8).reshape(3, 3, 2)
     plain, frame = (encode(snapshot(cut=one), 2) for one in (None, cut))
     assert frame[60:64] == bytes([1, 0, 0, 0])
-    assert frame[:60] + plain[60:64] + frame[64:-6] == plain
-    assert frame[-6:] == cut.tobytes()
+    assert frame[:60] + plain[60:64] + frame[64:-18] == plain
+    assert frame[-18:] == cut.tobytes()
     assert np.array_equal(decode_frame(frame)[1].cut, cut)
     assert decode_frame(plain)[1].cut is None
     with pytest.raises(InputError, match="planes"):

@@ -27,7 +27,7 @@ export function makeCavity(hello: Hello, maps: Maps, shade: ContactShade): Group
 /** The sphere that the wall is about, as far as its ruffles leave it free; all in metres. */
 export function hollow(hello: Hello): { readonly centre: Vector; readonly radius: number; readonly free: number } {
   const [a, b] = hello.tissue.size_m;
-  const depth = hello.tissue.layers.reduce((sum, layer) => sum + layer.thickness_m, 0);
+  const depth = hello.tissue.layers.reduce((sum, layer) => sum + layer.thickness_m, hello.under_m);
   const centre: Vector = [a / 2, b / 2, -depth];
   const ports = [...hello.instruments.map((shape) => shape.port_m), hello.camera.port_m];
   const radius = Math.max(...ports.map((port) => norm(subtract(port, centre))), 0.75 * Math.hypot(a, b));

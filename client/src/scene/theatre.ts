@@ -9,6 +9,7 @@ import { Block } from "./block";
 import { Board } from "./board";
 import { makeCavity } from "./cavity";
 import { ContactShade } from "./contact-shade";
+import { Film } from "./film";
 import { Instrument } from "./instrument";
 import type { Line } from "./lettering";
 import { Lamp } from "./lamp";
@@ -23,7 +24,7 @@ export class Theatre {
   readonly scene = new Scene();
   readonly lamp: Lamp;
   private readonly content = new Group();
-  private tissue: Block | Organ | null = null;
+  private tissue: Block | Film | Organ | null = null;
   private instruments: readonly Instrument[] = [];
   private scopePort = new Group();
   private readonly marks = new Marks();
@@ -41,9 +42,9 @@ export class Theatre {
   build(hello: Hello): void {
     this.content.clear();
     const [a, b] = hello.tissue.size_m;
-    this.tissue = hello.shape
-      ? new Organ(hello, hello.shape, this.maps, this.shade)
-      : new Block(hello, this.maps, this.shade);
+    if (hello.shape) this.tissue = new Organ(hello, hello.shape, this.maps, this.shade);
+    else if (hello.under_m > 0) this.tissue = new Film(hello, this.shade);
+    else this.tissue = new Block(hello, this.maps, this.shade);
     this.content.add(this.tissue.group, makeCavity(hello, this.maps, this.shade));
     this.instruments = hello.instruments.map((shape: InstrumentShape) => {
       const instrument = new Instrument(shape);

@@ -55,6 +55,8 @@ export interface Hello {
   readonly rate_hz: number;
   /** of a tissue that is no block */
   readonly shape: OrganShape | null;
+  /** free depth below a film, down to the tray it is clipped over */
+  readonly under_m: number;
   /** whether there are tasks to do, under /api/tasks */
   readonly lessons: boolean;
   /** whose hands move the instruments: the page's, or a device of the trainer's own */
@@ -128,6 +130,7 @@ export const IDLE_S = 10;
 export const REACH_M = 1;
 export const FRAME_MAGIC = 0x314f5254;
 export const POSE_MAGIC = 0x45534f50;
+export const LINKS = 3;
 
 /** Codes with which the server closes the stream. */
 export const Closing = {

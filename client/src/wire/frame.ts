@@ -1,7 +1,7 @@
 /** A binary frame of the live stream: the state of tissue and instruments, little-endian. */
 
 import type { Vector } from "../vector";
-import { FRAME_MAGIC, HEADER, INSTRUMENT, Status as StatusBit, Touch } from "./contract";
+import { FRAME_MAGIC, HEADER, INSTRUMENT, LINKS, Status as StatusBit, Touch } from "./contract";
 import { fromHalf } from "./half";
 import { WireError } from "./messages";
 
@@ -43,7 +43,7 @@ export interface Frame {
   ny: number;
   heights: Float32Array; // u_z of each layer's upper face [m], layers x ny x nx
   inPlane: Float32Array | null; // u_x, then u_y of the top face [m]
-  cut: Uint8Array | null; // of a sheet: which links of each node are cut, as bits (`scene/slit`)
+  cut: Uint8Array | null; // of a sheet: where its links are cut (`scene/slit`), LINKS x ny x nx
 }
 
 /** Return the sequence number alone, to acknowledge or drop a frame unread. */
@@ -65,7 +65,7 @@ export function readFrame(buffer: ArrayBuffer): Frame {
   const start = HEADER.bytes + 2 * INSTRUMENT.bytes;
   const end = start + planes * nx * ny * 2;
   const cut = view.getUint32(HEADER.cut, true) !== 0;
-  const expected = end + (cut ? nx * ny : 0);
+  const expected = end + (cut ? LINKS * nx * ny : 0);
   if (buffer.byteLength !== expected) {
     throw new WireError(`The trainer sent a frame of ${buffer.byteLength} bytes where ${expected} belong.`);
   }
@@ -88,7 +88,7 @@ export function readFrame(buffer: ArrayBuffer): Frame {
     ny,
     heights: values.subarray(0, surface),
     inPlane: planes > layers ? values.subarray(surface) : null,
-    cut: cut ? new Uint8Array(buffer, end, nx * ny) : null,
+    cut: cut ? new Uint8Array(buffer, end, LINKS * nx * ny) : null,
   };
 }
 

@@ -66,6 +66,7 @@ function readHello(message: unknown): Hello {
     hello.tissue.layers.length > 0 &&
     hello.tissue.layers.every((layer) => typeof layer.name === "string" && layer.thickness_m > 0) &&
     isNumbers(hello.grid, 2) &&
+    hello.under_m >= 0 &&
     (!hello.shape || isOrgan(hello.shape, hello.grid[0] * hello.grid[1])) &&
     isNumbers(hello.camera?.port_m, 3) &&
     isNumbers(hello.camera.target_m, 3) &&

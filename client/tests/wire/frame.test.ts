@@ -50,9 +50,9 @@ describe("a frame", () => {
   it("gives what is cut of a sheet, and nothing of what cannot be", () => {
     expect(frame.cut).toBeNull();
     const plain = new Uint8Array(bytes(FRAME));
-    const cut = new Uint8Array([...plain, 1, 2, 4, 15]);
+    const cut = new Uint8Array([...plain, 0, 2, 0, 4, 0, 128, 0, 0, 255, 0, 0, 1]);
     new DataView(cut.buffer).setUint32(HEADER.cut, 1, true);
-    expect([...(readFrame(cut.buffer).cut as Uint8Array)]).toEqual([1, 2, 4, 15]);
+    expect([...(readFrame(cut.buffer).cut as Uint8Array)]).toEqual([0, 2, 0, 4, 0, 128, 0, 0, 255, 0, 0, 1]);
     expect(readFrame(cut.buffer).inPlane).toEqual(frame.inPlane);
     expect(() => readFrame(cut.slice(0, -1).buffer)).toThrow(WireError);
   });

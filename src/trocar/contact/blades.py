@@ -10,6 +10,7 @@ off the line, y the direction they open in. A surface lies between them there wh
 
 from __future__ import annotations
 
+SPLIT = 3e-4  # [m] beyond what lies between them, at both ends: a narrower strand between two snips would not hold
 EDGE = 10e-3  # [m] of the blades of 5 mm scissors, as far as they cut
 LEAN = 0.36  # tan of the angle of each open blade: 20 degrees
 """How far open blades stand off the shaft's line, for each metre from the pivot [1]."""

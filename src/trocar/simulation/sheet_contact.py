@@ -12,7 +12,7 @@ from math import inf, sqrt
 
 from numba import njit
 
-from trocar.contact.blades import EDGE, LEAN
+from trocar.contact.blades import EDGE, LEAN, SPLIT
 from trocar.contact.tips import underside
 from trocar.model import FloatArray
 from trocar.simulation.sheet_scene import MOST_HELD, SheetScene, SheetState
@@ -150,7 +150,12 @@ def snip(
         elif begun:
             break
     if begun:
-        cut[0] = cut_along(lattice, state.lattice.whole, cut[1], cut[2], cut[3], cut[4])
+        level = sqrt(back[0] ** 2 + back[1] ** 2)
+        for axis in range(2):
+            further = SPLIT * back[axis] / level
+            cut[1 + axis] -= further
+            cut[3 + axis] += further
+        cut[0] = cut_along(lattice, state.lattice, cut[1], cut[2], cut[3], cut[4])
     return begun
 
 

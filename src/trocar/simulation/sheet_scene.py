@@ -17,7 +17,7 @@ from trocar.simulation.scene import DT, FRICTION
 from trocar.waves.sheet.lattice import Lattice, LatticeState, make_lattice, taut
 from trocar.waves.sheet.sheet import Sheet
 
-PLANES = 4  # of what is shown: u_z, u_x, u_y, and which links are cut
+PLANES = 6  # of what is shown: u_z, u_x, u_y, and where three links of each node are cut
 MOST_HELD = 64  # nodes in one jaw
 _WIDER = 0.5  # of the spacing: so much wider than the tip is what presses, or it would slip between nodes
 

@@ -66,6 +66,7 @@ TOLD = (
     300  # ticks for which a snip stays in the record, or until the next: long enough to be seen as a mistake
 )
 _IN_HAND, _FREE, _JAW, _OPENED, _TOUCHES = range(5)
+AT_LEAST = 1 / 255  # [1] of a link, where a cut is told
 _ABOVE = 0.02  # [m] a tip higher above the rest surface than this is not looked at
 _LEFT = 5  # column of snips: ticks for which it is still told
 
@@ -129,9 +130,10 @@ def advance_sheet(
 def sheet_planes(
     scene: SheetScene, state: SheetState, out: FloatArray
 ) -> None:  # pragma: no cover - compiled
-    """Write u_z, u_x and u_y of every node [m], and which of its links are cut, as bits; (4, ny, nx).
+    """Write u_z, u_x and u_y of every node [m], and of each of three of its links where it is cut; (6, ny, nx).
 
-    Bit k is the link to the neighbour that `lattice.AHEAD` names k-th; one that would leave the sheet counts as cut.
+    The links are `lattice.AHEAD`'s first three, the sides of the triangles that are drawn; each has 0 as long as it
+    holds, then how far along it the cut went, from `AT_LEAST` to 1.
     """
     n = scene.lattice.columns
     for j in range(out.shape[1]):
@@ -140,11 +142,9 @@ def sheet_planes(
             out[0, j, i] = state.lattice.places[2, at]
             out[1, j, i] = state.lattice.places[0, at]
             out[2, j, i] = state.lattice.places[1, at]
-            bits = 0.0
-            for way in range(4):
-                if state.lattice.whole[way, at] == 0.0:
-                    bits += 2.0**way
-            out[3, j, i] = bits
+            for way in range(3):
+                cut = state.lattice.whole[way, at] == 0.0
+                out[3 + way, j, i] = max(state.lattice.crossed[way, at], AT_LEAST) if cut else 0.0
 
 
 @njit(cache=True, nogil=True)

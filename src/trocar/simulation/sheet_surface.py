@@ -10,13 +10,13 @@ from trocar.model import FloatArray
 
 
 def sheet_planes_shown(planes: FloatArray) -> dict[str, Any]:
-    """Return `heights` u_z [m], (1, ny, nx), `in_plane` u_x and u_y [m], (2, ny, nx), and `cut` bits, (ny, nx).
+    """Return `heights` u_z [m], (1, ny, nx), `in_plane` u_x and u_y [m], (2, ny, nx), and `cut`, (3, ny, nx).
 
     Args:
-        planes: as `sheet_planes` writes them, shape (4, ny, nx).
+        planes: as `sheet_planes` writes them, shape (6, ny, nx).
     """
     return {
         "heights": planes[:1].astype(np.float32),
         "in_plane": planes[1:3].astype(np.float32),
-        "cut": planes[3].astype(np.uint8),
+        "cut": np.rint(255 * planes[3:]).astype(np.uint8),
     }

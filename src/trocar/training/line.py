@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import hypot
+from math import dist, hypot
 
 import numpy as np
 
 from trocar.model import FloatArray
 
-SLACK = 3e-4  # [m] beyond a snip's ends: so much between two of them still counts as cut
 _FINEST = 1e-4  # [m] between places of a snip that are looked at
 
 Place = tuple[float, float]
@@ -34,15 +33,19 @@ class Line:
     width: float
 
     def passes(self, snip: Snip, number: int) -> bool:
-        """Return whether a snip goes by a point beside it, near enough."""
+        """Return whether a snip goes by a point, near enough, and half of the way to the points before and after.
+
+        So snips that go by neighbouring points leave nothing between them.
+        """
         (x0, y0), (x1, y1) = snip
         x, y = self.points[number]
         length = hypot(x1 - x0, y1 - y0)
         if length == 0.0:
-            return hypot(x - x0, y - y0) <= SLACK
+            return False
         foot = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / length
         beside = ((x - x0) * (y1 - y0) - (y - y0) * (x1 - x0)) / length
-        return -SLACK <= foot <= length + SLACK and abs(beside) <= self.width
+        half = 0.5 * dist(self.points[max(number - 1, 0)], self.points[max(number, 1)])
+        return half <= foot <= length - half and abs(beside) <= self.width
 
     def farthest(self, snip: Snip) -> float:
         """Return how far from the line a snip goes [m]."""

@@ -82,6 +82,9 @@ class Hello(Message):
     linear_force_n: float = Field(description="up to this force the tissue's answer is trusted as linear")
     rate_hz: float = Field(description="requested ticks of the servo in a second")
     shape: OrganShape | None = Field(default=None, description="of a tissue that is no block")
+    under_m: float = Field(
+        default=0.0, description="free depth below a film, down to the tray it is clipped over"
+    )
     lessons: bool = Field(default=False, description="whether there are tasks to do, under /api/tasks")
     steered_by: Literal["page", "trainer"] = Field(
         default="page",

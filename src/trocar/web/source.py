@@ -112,8 +112,8 @@ class Snapshot:
         instruments: left, then right.
         heights: u_z of each layer's upper face [m], float32, shape (layers, ny, nx), top layer first.
         in_plane: u_x and u_y of the top face [m], float32, shape (2, ny, nx); None where the model has none.
-        cut: of a sheet: links of each node that are cut, as bits, uint8, shape (ny, nx): to the node ahead along x,
-            along y, along both, and back along x and ahead along y. None of what cannot be cut.
+        cut: of a sheet: the links from each node to that ahead along x, along y, and along both, uint8, shape
+            (3, ny, nx): 0 of one that holds, else how far along it the cut went, in 255ths. None of what cannot be cut.
     """
 
     tick: int

@@ -47,6 +47,7 @@ GRID = (64, 64)
 ORGAN_MODEL = "wave-mesh"
 _NODE, _MOST_NODES = 1.5e-3, 160  # [m] between the nodes of an organ's surface; of a side at most
 _CAMERA_BACK, _CAMERA_UP = 0.1, 0.11  # [m] from the middle of the block
+_TRAY = 0.012  # [m] depth of what a film is clipped over
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,6 +140,7 @@ class Stage:
             grid=self.grid,
             instruments=tuple(_shape(instrument) for instrument in self.instruments),
             shape=self._shape,
+            under_m=0.0 if self.sheet is None else _TRAY,
             camera=Camera(port_m=(middle[0], middle[1] - _CAMERA_BACK, _CAMERA_UP), target_m=middle),
             linear_force_n=self.linear_force,
             rate_hz=round(1 / self.scene.dt, 6),

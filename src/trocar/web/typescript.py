@@ -19,7 +19,7 @@ from trocar.web.closing import Closing
 from trocar.web.conversation import StreamLimits
 from trocar.web.messages import PROTOCOL, Acknowledgement, Guiding, Hello, Notice, Reset
 from trocar.web.source import Held, Status, Touch
-from trocar.web.wire import FRAME_MAGIC, HEADER, INSTRUMENT, POSE, POSE_MAGIC, REACH
+from trocar.web.wire import FRAME_MAGIC, HEADER, INSTRUMENT, LINKS, POSE, POSE_MAGIC, REACH
 
 _FROM_SERVER = (Hello, Guiding, Notice)
 _FROM_CLIENT = (Acknowledgement, Reset)
@@ -40,6 +40,7 @@ def typescript() -> str:
         "REACH_M": f"{REACH:g}",
         "FRAME_MAGIC": f"0x{FRAME_MAGIC:08x}",
         "POSE_MAGIC": f"0x{POSE_MAGIC:08x}",
+        "LINKS": f"{LINKS}",
     }
     parts = [
         _HEAD,

@@ -2,9 +2,9 @@
 
 A frame is a header of 64 bytes, one record of 64 bytes for the left and one for the right instrument, then
 planes of float16 with the displacement in millimetres, x fastest: u_z of each layer's upper face, top layer
-first, and u_x and u_y of the top face where the header says so. Of a sheet a plane of bytes may follow, with what is
-cut at each node (`source.Snapshot`). float16 has 11 significant bits, so a
-displacement of 1 mm is told to 0.5 um; beyond 65.5 m it would be infinite.
+first, and u_x and u_y of the top face where the header says so. Of a sheet three planes of bytes may follow, with
+what is cut (`source.Snapshot`). float16 has 11 significant bits, so a displacement of 1 mm is told to 0.5 um; beyond
+65.5 m it would be infinite.
 
 A pose is one record of 48 bytes. Everything in it is checked here: what comes out is safe to compute with.
 """
@@ -24,6 +24,7 @@ from trocar.web.source import Held, InstrumentState, Pose, Snapshot, Status, Tou
 
 FRAME_MAGIC = 0x314F5254  # "TRO1"
 POSE_MAGIC = 0x45534F50  # "POSE"
+LINKS = 3  # of a sheet's node, of which it is told where they are cut
 REACH = 1.0  # farthest a handle may be from the block [m]
 MOST_ROLL = 2000 * math.pi  # a thousand turns: beyond, float32 resolves the angle worse than 0.5 mrad [rad]
 
@@ -159,7 +160,7 @@ def decode_frame(frame: bytes) -> tuple[int, Snapshot]:
     count = shape[0] + 2 * int(header["in_plane"])
     nodes = shape[1] * shape[2]
     end = start + count * nodes * _PLANE.itemsize
-    if len(frame) != end + nodes * bool(header["cut"]):
+    if len(frame) != end + LINKS * nodes * bool(header["cut"]):
         raise InputError("frame", f"{count} planes of {shape[2]} x {shape[1]}", f"{len(frame)} bytes")
     records = np.frombuffer(frame, INSTRUMENT, 2, HEADER.itemsize)
     planes = np.frombuffer(frame, _PLANE, count * nodes, start).astype(np.float32) * np.float32(MILLIMETRE)
@@ -177,7 +178,7 @@ def decode_frame(frame: bytes) -> tuple[int, Snapshot]:
         instruments=(left, right),
         heights=planes[: shape[0]],
         in_plane=planes[shape[0] :] if header["in_plane"] else None,
-        cut=np.frombuffer(frame, np.uint8, offset=end).reshape(shape[1:]) if header["cut"] else None,
+        cut=np.frombuffer(frame, np.uint8, offset=end).reshape(LINKS, *shape[1:]) if header["cut"] else None,
     )
 
 

@@ -36,10 +36,10 @@ def test_a_short_cut_takes_the_links_it_crosses(sheet):
     lattice, state = sheet
     before = state.whole.copy()
     # Between two rows, across one link straight up and the two diagonals that cross there twice.
-    assert cut_along(lattice, state.whole, 9.8 * H, 10.5 * H, 10.2 * H, 10.5 * H) == 1
+    assert cut_along(lattice, state, 9.8 * H, 10.5 * H, 10.2 * H, 10.5 * H) == 1
     assert before.sum() - state.whole.sum() == 1
     assert state.whole[1, 10 * 41 + 10] == 0.0
-    assert cut_along(lattice, state.whole, 9.8 * H, 10.5 * H, 10.2 * H, 10.5 * H) == 0
+    assert cut_along(lattice, state, 9.8 * H, 10.5 * H, 10.2 * H, 10.5 * H) == 0
 
 
 @pytest.mark.parametrize(
@@ -51,12 +51,12 @@ def test_a_cut_from_side_to_side_parts_the_sheet(sheet, ends):
     (x0, y0), (x1, y1) = ends
     xs, ys = np.linspace(x0, x1, 30), np.linspace(y0, y1, 30)
     for k in range(29):
-        cut_along(lattice, state.whole, xs[k], ys[k], xs[k + 1], ys[k + 1])
+        cut_along(lattice, state, xs[k], ys[k], xs[k + 1], ys[k + 1])
     assert apart(lattice, state, 20, len(lattice.free) - 20)
     assert not apart(lattice, state, 20, 21)
 
 
 def test_beside_the_sheet_there_is_nothing_to_cut(sheet):
     lattice, state = sheet
-    assert cut_along(lattice, state.whole, -0.02, -0.02, -0.01, -0.01) == 0
-    assert cut_along(lattice, state.whole, 0.03, 0.03, 0.03, 0.03) == 0
+    assert cut_along(lattice, state, -0.02, -0.02, -0.01, -0.01) == 0
+    assert cut_along(lattice, state, 0.03, 0.03, 0.03, 0.03) == 0

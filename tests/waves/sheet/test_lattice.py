@@ -87,7 +87,7 @@ def opened(links, cells, stretch):
     state = taut(lattice)
     h, n, row = lattice.spacing, lattice.columns, cells // 2
     half, y = links * h / 2, (row + 0.5) * h
-    cut_along(lattice, state.whole, 0.06 - half, y, 0.06 + half, y)
+    cut_along(lattice, state, 0.06 - half, y, 0.06 + half, y)
     for _ in range(100):
         go_on(lattice, state)
     assert np.abs(state.speeds).max() < 1e-7
@@ -129,7 +129,7 @@ def test_no_cut_gives_energy():
         if cuts:
             x0, y0, angle = rng.uniform(0.01, 0.05), rng.uniform(0.01, 0.05), rng.uniform(0, 2 * pi)
             dx, dy = 6e-3 * np.array([cos(angle), np.sin(angle)])
-            cut_along(lattice, state.whole, x0, y0, x0 + dx, y0 + dy)
+            cut_along(lattice, state, x0, y0, x0 + dx, y0 + dy)
         before = state.speeds.copy()
         lag(lattice, state)
         pull(lattice, state)
@@ -150,7 +150,7 @@ def test_a_cut_sheet_comes_to_rest_open():
     lattice = make_lattice(Sheet(), DT)
     state = taut(lattice)
     whole = stored(lattice, state)
-    cut_along(lattice, state.whole, 0.02, 0.0292, 0.04, 0.0292)
+    cut_along(lattice, state, 0.02, 0.0292, 0.04, 0.0292)
     for _ in range(1500):
         go_on(lattice, state)
     assert moving(lattice, state) < 1e-9 * whole

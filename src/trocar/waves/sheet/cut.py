@@ -8,19 +8,18 @@ from __future__ import annotations
 
 from numba import njit
 
-from trocar.model import FloatArray
-from trocar.waves.sheet.lattice import AHEAD, Lattice
+from trocar.waves.sheet.lattice import AHEAD, Lattice, LatticeState
 
 
 @njit(cache=True)
 def cut_along(
-    lattice: Lattice, whole: FloatArray, x0: float, y0: float, x1: float, y1: float
+    lattice: Lattice, state: LatticeState, x0: float, y0: float, x1: float, y1: float
 ) -> int:  # pragma: no cover - compiled
     """Cut every link that a segment crosses; return how many held before.
 
     Args:
         lattice: parameters.
-        whole: links, as in `LatticeState`, shape (4, ny nx); overwritten.
+        state: which links hold, and where those that do not were crossed; overwritten.
         x0: of the segment's beginning, at rest [m].
         y0: likewise [m].
         x1: of its end [m].
@@ -37,7 +36,7 @@ def cut_along(
             side = dx * (j * h - y0) - dy * (i * h - x0)
             for way in range(4):
                 at = j * n + i
-                if whole[way, at] == 0.0:
+                if state.whole[way, at] == 0.0:
                     continue
                 ex, ey = AHEAD[way][0] * h, AHEAD[way][1] * h
                 turn = dx * ey - dy * ex
@@ -46,6 +45,7 @@ def cut_along(
                 # The link's sides differ, so turn is not 0: where on the segment they meet.
                 share = ((i * h - x0) * ey - (j * h - y0) * ex) / turn
                 if 0.0 <= share <= 1.0:
-                    whole[way, at] = 0.0
+                    state.whole[way, at] = 0.0
+                    state.crossed[way, at] = min(max(-side / turn, 0.0), 1.0)
                     count += 1
     return count

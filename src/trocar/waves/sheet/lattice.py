@@ -77,12 +77,14 @@ class LatticeState(NamedTuple):
         speeds: of the nodes, half a small step before [m/s], shape (3, ny nx).
         lagged: scratch: x, y, z, half the sum and half the difference of x and y [m], shape (5, ny nx).
         whole: 1 of a link that holds and 0 of one that is cut, by node and `AHEAD`, shape (4, ny nx).
+        crossed: how far along itself, from 0 to 1, each link that is cut was cut; shape (4, ny nx).
     """
 
     places: FloatArray
     speeds: FloatArray
     lagged: FloatArray
     whole: FloatArray
+    crossed: FloatArray
 
 
 def make_lattice(sheet: Sheet, dt: float) -> Lattice:
@@ -135,6 +137,7 @@ def taut(lattice: Lattice) -> LatticeState:
         speeds=np.zeros((3, nodes)),
         lagged=np.zeros((5, nodes)),
         whole=whole.reshape(4, nodes),
+        crossed=np.zeros((4, nodes)),
     )
 
 
