@@ -27,7 +27,8 @@ def compare(
         str | None,
         typer.Option(
             help="Models, separated by commas: wave-membrane, wave-solid, wave-mesh, fea, mass-spring, mesh-free. "
-            "Default: wave-solid,fea; with a rigid tip wave-solid,wave-membrane."
+            "Default: wave-solid,fea; with a rigid tip wave-solid,wave-membrane; on a mesh wave-mesh, the one "
+            "that takes it."
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON alone on stdout.")] = False,
@@ -62,12 +63,13 @@ def _print(result: Comparison) -> None:
     case = result.case
     peaks = " and ".join(f"{tool.peak:g}" for tool in case.tools)
     sides = " x ".join(f"{side / MILLIMETRE:g}" for side in case.size)
-    console.print(f"[bold]{case.title}[/]: {sides} mm, support {case.support.value}, peak {peaks} N")
+    held = f"support {case.support.value}" if case.mesh is None else f"{len(case.mesh.cells)} elements"
+    console.print(f"[bold]{case.title}[/]: {sides} mm, {held}, peak {peaks} N")
     table = Table()
     table.add_column("largest deflection, mm")
     for history in result.histories:
         table.add_column(history.model, justify="right")
-    for layer in case.tissue.layer_names:
+    for layer in case.faces:
         table.add_row(
             layer, *(f"{history.deflection[layer].max() / MILLIMETRE:.4g}" for history in result.histories)
         )

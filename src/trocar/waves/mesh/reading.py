@@ -59,6 +59,13 @@ def read_mesh(
     points = UNITS[unit] * file.points
     if len(file.cells):
         _check_unit(file.points[file.mentioned], unit, path)
+        if spacing is not None:
+            raise InputError(
+                "spacing",
+                "none for a file of solid elements",
+                spacing,
+                "leave it out: it is for surfaces, which are filled",
+            )
         if not drop_unused and not file.mentioned.all():
             raise InputError(
                 str(path),
