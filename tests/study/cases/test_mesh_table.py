@@ -9,6 +9,7 @@ from trocar.study.calibration.response import check_model
 from trocar.study.cases.reading import load_case
 from waves.mesh.mesh_files import ball, block_file
 
+BALL = 'file = "ball.stl"\nspacing_mm = 8'
 LAYER = """
 [[layer]]
 name = "{name}"
@@ -63,13 +64,18 @@ def test_the_liver_is_the_one_that_trocar_makes_closer_about_the_tool(tmp_path):
 
 def test_a_file_lies_beside_the_case_and_is_read_as_its_keys_say(tmp_path):
     ball_file(tmp_path)
-    keys = 'file = "ball.stl"\nunit = "mm"\nup = "-y"\nheld = "below"\ntouched = "above"\nspacing_mm = 8'
-    case = load_case(written(tmp_path, keys))
-    assert case.size == pytest.approx((0.04, 0.04), rel=0.05)  # chords of the ball, and of its six rings
-    finer = load_case(written(tmp_path, 'file = "ball.stl"\nspacing_mm = 5'))
-    assert len(finer.mesh.cells) > 2 * len(case.mesh.cells)
-    doubled = load_case(written(tmp_path, 'file = "ball.stl"\nunit = "cm"\nspacing_mm = 80', x=200, y=200))
-    assert doubled.size == pytest.approx((0.4, 0.4), rel=0.05)
+    case = load_case(written(tmp_path, BALL))
+    assert case.size == pytest.approx(
+        (0.04, 0.04), rel=0.1
+    )  # chords of the ball's six rings, a spacing of a fifth
+    finer = load_case(written(tmp_path, 'file = "ball.stl"\nspacing_mm = 6'))
+    assert len(finer.mesh.cells) > 1.5 * len(case.mesh.cells)
+    wider = load_case(written(tmp_path, 'file = "ball.stl"\nunit = "cm"\nspacing_mm = 80', x=200, y=200))
+    assert wider.size == pytest.approx(10 * np.array(case.size))
+    block_file(tmp_path / "block.msh", file_format="gmsh22", binary=False)
+    keys = 'file = "block.msh"\nunit = "mm"\nup = "+x"\nheld = "below"\ntouched = "above"'
+    upright = load_case(written(tmp_path, keys, x=10, y=3))
+    assert (*upright.size, upright.mesh.thickness) == pytest.approx((0.02, 6.2e-3, 0.02))
 
 
 def test_layers_are_the_materials_of_a_files_regions(tmp_path):
@@ -100,11 +106,11 @@ def test_layers_are_the_materials_of_a_files_regions(tmp_path):
         ('file = "block.msh"\nspacing_mm = 4', {"x": 10, "y": 10}, "mesh.spacing_mm", "leave it out"),
         ('file = "liver"\nup = "+y"', {}, "mesh.up", "no such key beside liver"),
         ('file = "liver"', {"x": 500}, "tool[0].position_mm", "a place on the organ"),
-        ('file = "ball.stl"', {"x": 2, "y": 2}, "tool[0].position_mm", "a place over the surface"),
-        ('file = "ball.stl"', {"x": 20, "y": 0.5, "diameter": 0.5}, "tool[0].position_mm", "75 degrees"),
-        ('file = "ball.stl"', {"layers": (("a", 1), ("b", 2))}, "layer[0].name", "a region of the mesh"),
+        (BALL, {"x": 2, "y": 2}, "tool[0].position_mm", "a place over the surface"),
+        (BALL, {"x": 5.5, "y": 7.5, "diameter": 0.2}, "tool[0].position_mm", "75 degrees"),
+        (BALL, {"layers": (("a", 1), ("b", 2))}, "layer[0].name", "a region of the mesh"),
         ('file = "block.msh"', {"layers": (("fat", 1), ("muscle", 2))}, "mesh.file", "elements without"),
-        ('file = "ball.stl"', {"more": "[block]\nsize_mm = [60, 60]\n"}, "mesh", "got both"),
+        (BALL, {"more": "[block]\nsize_mm = [60, 60]\n"}, "mesh", "got both"),
     ],
 )
 def test_a_mistake_is_one_line_that_names_its_key(tmp_path, mesh, more, place, said):
@@ -121,7 +127,7 @@ def test_a_mistake_is_one_line_that_names_its_key(tmp_path, mesh, more, place, s
 
 def test_a_thickness_beside_a_mesh_and_a_rigid_tip_on_one_are_refused(tmp_path):
     ball_file(tmp_path)
-    file = written(tmp_path, 'file = "ball.stl"')
+    file = written(tmp_path, BALL)
     text = file.read_text("utf-8")
     file.write_text(text.replace("poisson_ratio", "thickness_mm = 3\npoisson_ratio"), "utf-8")
     with pytest.raises(InputError, match=r"layer\[0\].thickness_mm: expected no such key beside \[mesh\]"):
@@ -129,13 +135,13 @@ def test_a_thickness_beside_a_mesh_and_a_rigid_tip_on_one_are_refused(tmp_path):
     file.write_text(text.replace("diameter_mm", 'contact = "rigid"\ndiameter_mm'), "utf-8")
     with pytest.raises(InputError, match=r'tool\[0\].contact: expected "dead" on a mesh'):
         load_case(file)
-    file.write_text(text.replace("[mesh]\n", "").replace('file = "ball.stl"', ""), "utf-8")
+    file.write_text(text.replace("[mesh]\n", "").replace(BALL, ""), "utf-8")
     with pytest.raises(InputError, match=r"layer\[0\].thickness_mm"):
         load_case(file)
 
 
 def test_a_mesh_is_not_calibrated_on(tmp_path):
     ball_file(tmp_path)
-    case = load_case(written(tmp_path, 'file = "ball.stl"'))
+    case = load_case(written(tmp_path, BALL))
     with pytest.raises(InputError, match=r"mesh: expected a \[block\]"):
         check_model(case, "wave-solid")
