@@ -39,11 +39,11 @@ def compare(
 
     from trocar.study.cases.reading import load_case
     from trocar.study.compare import compare as run
-    from trocar.study.models import check_names, usual_models
+    from trocar.study.compare import models_for
 
     experiment = load_case(case)
     asked = None if models is None else [name.strip() for name in models.split(",") if name.strip()]
-    names = usual_models(experiment) if asked is None else check_names(asked)
+    names = models_for(experiment, asked)
     with Progress(console=Console(stderr=True), transient=True) as bars:
         tasks = {name: bars.add_task(name, total=1.0) for name in names}
         result = run(experiment, names, watch=lambda name, share: bars.update(tasks[name], completed=share))

@@ -52,6 +52,28 @@ class Comparison:
         }
 
 
+def models_for(case: Case, models: Sequence[str] | None) -> tuple[str, ...]:
+    """Return the models that a case is run through, each once.
+
+    Args:
+        case: the experiment.
+        models: names; None for the usual ones of such a case.
+
+    Raises:
+        InputError: a name is unknown, or that model takes no rigid tip or no mesh.
+    """
+    if models is None:
+        return usual_models(case)
+    names = check_names(models)
+    for name in names:
+        if case.mesh is not None and name not in ON_MESHES:
+            taking = f"{' or '.join(ON_MESHES)}, which takes a mesh"
+            raise InputError("models", taking, name, "the other models are for blocks")
+        if case.rigid and name not in WAVES:
+            raise InputError("models", f"{' or '.join(WAVES)}, which take a rigid tip", name)
+    return names
+
+
 def compare(
     case: Case,
     models: Sequence[str] | None = None,
@@ -71,13 +93,7 @@ def compare(
         InputError: a name is unknown, or that model takes no rigid tip or no mesh.
         SolverError: a model could not be solved.
     """
-    names = usual_models(case) if models is None else check_names(models)
-    for name in names:
-        if case.mesh is not None and name not in ON_MESHES:
-            taking = f"{' or '.join(ON_MESHES)}, which takes a mesh"
-            raise InputError("models", taking, name, "the other models are for blocks")
-        if case.rigid and name not in WAVES:
-            raise InputError("models", f"{' or '.join(WAVES)}, which take a rigid tip", name)
+    names = models_for(case, models)
     histories = tuple(run(case, name, builders[name], partial(watch, name)) for name in names)
     return Comparison(case=case, histories=histories)
 
