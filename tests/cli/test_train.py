@@ -2,6 +2,8 @@
 
 import os
 import signal
+import socket
+import sys
 from pathlib import Path
 from urllib.parse import urlsplit
 from urllib.request import urlopen
@@ -88,3 +90,28 @@ def test_mistakes_are_refused_before_anything_is_started(options, words, capsys,
     assert (code, out) == (2, "")
     assert words in " ".join(err.split())
     assert "Traceback" not in err
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--mesh", "none.stl"], "a mesh file that can be read"),
+        (["--mesh", "kidney"], "liver, or a file that ends in"),
+        (["--mesh", "liver", "--mesh-unit", "inch"], "one of m, cm, mm, um"),
+        (["--mesh", "liver", "--mesh-up", "z"], "one of +z, -z"),
+    ],
+)
+def test_a_mistake_about_a_mesh_is_told_before_what_takes_seconds_to_import(
+    options, words, capsys, monkeypatch
+):
+    monkeypatch.setitem(sys.modules, "trocar.web.serve", None)  # to import it fails
+    assert main(["train", "--no-browser", *options]) == 2
+    assert words in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_busy_port_is_told_before_what_takes_minutes(capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "trocar.web.serve", None)  # to import it fails
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        assert main(["train", "--no-browser", "--port", str(port)]) == 1
+    assert f"port {port}: Address already in use; choose another port" in capsys.readouterr().err

@@ -6,7 +6,7 @@ import pytest
 from trocar.contact.instrument import TipKind
 from trocar.errors import InputError
 from trocar.simulation import FORCE, RECORD, amplitudes, at_rest, line, played, poses_along
-from trocar.simulation.live_organ import ORGANS, live_organ, organ_mesh
+from trocar.simulation.live_organ import live_organ, organ_mesh
 from trocar.simulation.organ import Organ, make_organ_scene
 from trocar.simulation.organ_surface import OrganSurface
 from trocar.study.contact.scenes import upright
@@ -15,6 +15,7 @@ from trocar.tissues.nodule import Nodule
 from trocar.waves.mesh.basis_cache import BasisCache
 from trocar.waves.mesh.elements import Elements
 from trocar.waves.mesh.organ import Liver
+from trocar.waves.mesh.organ_name import ORGANS
 from trocar.waves.mesh.press_grid import cubic_table
 from trocar.waves.mesh.wave_mesh import WaveMesh
 

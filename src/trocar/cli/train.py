@@ -136,14 +136,9 @@ def train(
     for option in (option for option, given in attempted.items() if given is not None):
         raise typer.BadParameter(f"--{option} is for --headless: on the page, tasks are chosen there")
 
-    from rich.console import Console
+    from trocar.web.address import check_address
 
-    from trocar.records.store import Records
-    from trocar.web.lessons import Lessons
-    from trocar.web.serve import check_address, serve
-    from trocar.web.stage import set_stage
-    from trocar.web.trainer import Trainer
-
+    check_address(listen, port, cert, key)  # a mistake is told before what takes seconds to import
     nodules = tuple(_nodule(text) for text in nodule or ())
     reading = {"unit": mesh_unit, "up": mesh_up, "held": mesh_held, "touched": mesh_touched}
     reading = {option: value for option, value in reading.items() if value is not None}
@@ -156,8 +151,20 @@ def train(
         raise typer.BadParameter(
             "--device simulated presses a level block; with --mesh take the page's hands"
         )
+    else:
+        from trocar.waves.mesh.organ_name import check_organ
+
+        check_organ(mesh, **{name: reading[name] for name in ("unit", "up") if name in reading})
+
+    from rich.console import Console
+
+    from trocar.records.store import Records
+    from trocar.web.lessons import Lessons
+    from trocar.web.serve import serve
+    from trocar.web.stage import set_stage
+    from trocar.web.trainer import Trainer
+
     hands = _device(device, ports, script=script, seed=seed, recording=recording)
-    check_address(listen, cert, key)
     log = Console(stderr=True, highlight=False)
     with log.status("laying the tissue and its waves out ...") as status:
         if mesh is None:

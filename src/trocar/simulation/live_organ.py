@@ -17,12 +17,12 @@ from trocar.tissues.tissue import Tissue
 from trocar.waves.mesh.basis_cache import BasisCache
 from trocar.waves.mesh.elements import Elements
 from trocar.waves.mesh.inclusion import with_inclusion
-from trocar.waves.mesh.mesh_file import ENDINGS, read_file
+from trocar.waves.mesh.mesh_file import read_file
 from trocar.waves.mesh.organ import Liver
+from trocar.waves.mesh.organ_name import ORGANS, check_organ
 from trocar.waves.mesh.solid_mesh import SolidMesh
 from trocar.waves.mesh.wave_mesh import WaveMesh
 
-ORGANS = ("liver",)
 _SPACING = (
     0.016  # [m] of a liver whose elements are a third as long about a nodule: as many as elsewhere in all
 )
@@ -79,6 +79,7 @@ def organ_mesh(
         InputError: there is no such organ, the file does not hold a mesh that can be a tissue, or a nodule lies
             beside it or is as small as its elements.
     """
+    check_organ(name, unit=unit, up=up)
     body = tissue.linearised.layers[-1]
     if name in ORGANS:
         if not nodules:
@@ -86,8 +87,6 @@ def organ_mesh(
         around = nodules[0].x, nodules[0].y
         return _with_nodules(Liver().mesh(body, spacing=_SPACING, around=around), nodules)
     path = Path(name)
-    if path.suffix.lower() not in ENDINGS:
-        raise InputError("mesh", f"{' or '.join(ORGANS)}, or a file that ends in {' '.join(ENDINGS)}", name)
     layers = {layer.name: layer for layer in tissue.linearised.layers}
     named = [region for region in read_file(path).regions if region in layers]
     materials: Layer | dict[str, Layer] = {region: layers[region] for region in named} if named else body

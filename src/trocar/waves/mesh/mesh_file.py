@@ -112,9 +112,12 @@ def read_file(path: Path) -> MeshFile:
     )
 
 
-def _parsed(path: Path) -> Any:
-    """Return what meshio makes of a file."""
-    meshio = import_module("meshio")  # half a second: only who reads a mesh waits for it
+def check_file(path: Path) -> None:
+    """Refuse a file that cannot be read, before it is.
+
+    Raises:
+        InputError: it is not there, is of an unknown kind, or too large.
+    """
     if path.suffix.lower() not in ENDINGS:
         raise InputError(
             str(path),
@@ -135,6 +138,12 @@ def _parsed(path: Path) -> Any:
             f"{size // 1_000_000} MB",
             "make larger elements",
         )
+
+
+def _parsed(path: Path) -> Any:
+    """Return what meshio makes of a file."""
+    check_file(path)
+    meshio = import_module("meshio")  # half a second: only who reads a mesh waits for it
     words = io.StringIO()
     try:
         with redirect_stdout(words), redirect_stderr(words), np.errstate(all="ignore"):

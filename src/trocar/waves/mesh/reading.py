@@ -50,10 +50,7 @@ def read_mesh(
 ) -> SolidMesh:
     """Read a mesh; `SolidMesh.read` says how."""
     path = Path(path)
-    if unit not in UNITS:
-        raise InputError("unit", f"one of {', '.join(UNITS)}", unit)
-    if up not in _UP:
-        raise InputError("up", f"one of {', '.join(_UP)}", up)
+    check_reading(unit=unit, up=up)
     file = read_file(path)
     _check_count(len(file.points), path)
     points = UNITS[unit] * file.points
@@ -97,6 +94,18 @@ def read_mesh(
             surfaces={"surface" if touched == "above" else touched: place[seen]},
         )
     )
+
+
+def check_reading(*, unit: str, up: str) -> None:
+    """Refuse a unit or a direction that there is not.
+
+    Raises:
+        InputError: `unit` is none of `UNITS`, or `up` names no axis.
+    """
+    if unit not in UNITS:
+        raise InputError("unit", f"one of {', '.join(UNITS)}", unit)
+    if up not in _UP:
+        raise InputError("up", f"one of {', '.join(_UP)}", up)
 
 
 def _check_count(count: int, path: Path) -> None:
