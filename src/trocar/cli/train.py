@@ -10,12 +10,9 @@ import typer
 from trocar.errors import InputError
 
 if TYPE_CHECKING:
-    from rich.status import Status
-
     from trocar.devices.device import Device
     from trocar.tissues.nodule import Nodule
     from trocar.web.serve import Served
-    from trocar.web.stage import Stage
 
 _PORT = 0
 _PAGE = "web"
@@ -140,7 +137,7 @@ def train(
 
     check_address(listen, port, cert, key)  # a mistake is told before what takes seconds to import
     nodules = tuple(_nodule(text) for text in nodule or ())
-    reading = {"unit": mesh_unit, "up": mesh_up, "held": mesh_held, "touched": mesh_touched}
+    reading: dict[str, Any] = {"unit": mesh_unit, "up": mesh_up, "held": mesh_held, "touched": mesh_touched}
     reading = {option: value for option, value in reading.items() if value is not None}
     if mesh is None:
         for option in reading:
@@ -158,6 +155,7 @@ def train(
 
     from rich.console import Console
 
+    from trocar.cli.organ import organ_stage
     from trocar.records.store import Records
     from trocar.web.lessons import Lessons
     from trocar.web.serve import serve
@@ -170,7 +168,7 @@ def train(
         if mesh is None:
             stage = set_stage(tissue, ports=ports, model=model, nodules=nodules)
         else:
-            stage = _organ_stage(mesh, tissue, ports, nodules, reading, status)
+            stage = organ_stage(mesh, tissue, ports, nodules, reading, log, status)
         if stage.tissue.large_deformation:
             log.print(
                 "The trainer's waves are linear: of the layers' laws for large strain they take the beginning. "
@@ -201,32 +199,6 @@ def train(
         trainer.close()
         records.close()
     log.print("The trainer has stopped.")
-
-
-def _organ_stage(
-    mesh: str,
-    tissue: str,
-    ports: str,
-    nodules: tuple[Nodule, ...],
-    reading: dict[str, Any],
-    status: Status,
-) -> Stage:
-    """Read an organ's mesh and find what answers a press anywhere on it."""
-    from trocar.contact.port_sets import instruments_over
-    from trocar.simulation.live import LIVE_SIZE
-    from trocar.simulation.live_organ import live_organ, organ_mesh
-    from trocar.tissues.catalogue import tissue as preset
-    from trocar.web.stage import organ_stage
-
-    status.update("reading the mesh ...")
-    organ = organ_mesh(mesh, preset(tissue), nodules=nodules, **reading)
-    instruments_over(ports, organ.size, LIVE_SIZE)  # a mistake in them is told before the long work
-    status.update("finding the mesh's modes; kept for the next time ...")
-
-    def told(done: int, total: int) -> None:
-        status.update(f"finding how the surface answers, {100 * done // total} %; kept for the next time ...")
-
-    return organ_stage(live_organ(organ, name=Path(mesh).stem, progress=told), ports=ports)
 
 
 def _nodule(text: str) -> Nodule:

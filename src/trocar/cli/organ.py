@@ -1,0 +1,86 @@
+"""The organ of `trocar train --mesh`: read, laid out, and what is said on the way."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from trocar.simulation.live_organ import live_organ, organ_mesh
+from trocar.tissues.catalogue import tissue as preset
+from trocar.waves.mesh.organ_name import ORGANS
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.status import Status
+
+    from trocar.tissues.nodule import Nodule
+    from trocar.tissues.tissue import Tissue
+    from trocar.waves.mesh.solid_mesh import SolidMesh
+    from trocar.web.stage import Stage
+
+
+def organ_stage(
+    mesh: str,
+    tissue: str,
+    ports: str,
+    nodules: tuple[Nodule, ...],
+    reading: dict[str, Any],
+    log: Console,
+    status: Status,
+) -> Stage:
+    """Read an organ's mesh and find what answers a press anywhere on it.
+
+    Args:
+        mesh: name of an organ, or the path of a file.
+        tissue: name of a preset, or the path of a tissue file.
+        ports: name of a port set, or a file.
+        nodules: in it.
+        reading: how the file is read, as `organ_mesh` takes it.
+        log: where notices go.
+        status: what is being done.
+
+    Raises:
+        InputError: something named is not there or does not go together.
+        SolverError: the organ is not held.
+    """
+    from trocar.contact.port_sets import instruments_over
+    from trocar.simulation.live import LIVE_SIZE
+    from trocar.web.stage import organ_stage as stage_of_organ
+
+    status.update("reading the mesh ...")
+    layers = preset(tissue)
+    organ = organ_mesh(mesh, layers, nodules=nodules, **reading)
+    notice = left_out(mesh, organ, layers)
+    if notice:
+        log.print(notice, markup=False)
+    instruments_over(ports, organ.size, LIVE_SIZE)  # a mistake in them is told before the long work
+    status.update("finding the mesh's modes; kept for the next time ...")
+
+    def told(done: int, total: int) -> None:
+        status.update(f"finding how the surface answers, {100 * done // total} %; kept for the next time ...")
+
+    return stage_of_organ(live_organ(organ, name=Path(mesh).stem, progress=told), ports=ports)
+
+
+def left_out(mesh: str, organ: SolidMesh, tissue: Tissue) -> str:
+    """Return a sentence on the layers of a tissue that an organ is not made of; an empty one where there are none.
+
+    Args:
+        mesh: the organ's name, or its file's.
+        organ: made of the tissue.
+        tissue: whose layers were asked for.
+    """
+    taken = {material.name for material in organ.materials}
+    lost = [layer.name for layer in tissue.layers if layer.name not in taken]
+    if not lost:
+        return ""
+    names = " and ".join(lost)
+    if mesh in ORGANS:
+        why = f"the {mesh} that Trocar makes is of one material, a tissue's lowest layer"
+        return f"The organ is of {tissue.layers[-1].name} alone, without {names}: {why}."
+    if len(lost) == len(tissue.layers) - 1 and tissue.layers[-1].name in taken:
+        return (
+            f"The organ is of {tissue.layers[-1].name} alone, the lowest layer of the tissue, without {names}: "
+            f"{mesh} has no regions of these names. Regions of a mesh file take the layers that are named as they are."
+        )
+    return f"The organ is without {names}: {mesh} has no region of that name."
