@@ -57,7 +57,7 @@ def test_however_it_ends_nothing_stays_behind(ending):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--tissue", "granite"], "granite"),
+        (["--tissue", "granite"], "--tissue: expected one of"),
         (["--model", "fea"], "wave-membrane or wave-solid"),
         (["--ports", "oblik"], "did you mean oblique?"),
         (["--mesh", "kidney"], "liver, or a file that ends in"),
@@ -74,7 +74,8 @@ def test_however_it_ends_nothing_stays_behind(ending):
         (["--device", "recorded", "--script", "press", "--recording", str(RECORDING)], "script"),
         (["--device", "simulated", "--script", "juggle"], "juggle"),
         (["--script", "press"], "--script is for devices other than web"),
-        (["--listen", "192.0.2.1"], "without cert and key"),
+        (["--mesh-drop-unused"], "--mesh-drop-unused goes with --mesh"),
+        (["--listen", "192.0.2.1"], "--listen: expected this machine alone without cert and key"),
         (["--listen", "0.0.0.0"], "one address of this machine"),
         (["--cert", "none.pem"], "both or neither"),
         (["--port", "70000"], "70000"),
@@ -97,8 +98,8 @@ def test_mistakes_are_refused_before_anything_is_started(options, words, capsys,
     [
         (["--mesh", "none.stl"], "a mesh file that can be read"),
         (["--mesh", "kidney"], "liver, or a file that ends in"),
-        (["--mesh", "liver", "--mesh-unit", "inch"], "one of m, cm, mm, um"),
-        (["--mesh", "liver", "--mesh-up", "z"], "one of +z, -z"),
+        (["--mesh", "liver", "--mesh-unit", "inch"], "--mesh-unit: expected one of m, cm, mm, um"),
+        (["--mesh", "liver", "--mesh-up", "z"], "--mesh-up: expected one of +z, -z"),
     ],
 )
 def test_a_mistake_about_a_mesh_is_told_before_what_takes_seconds_to_import(

@@ -5,10 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from trocar.simulation.live_organ import live_organ, organ_mesh
-from trocar.tissues.catalogue import tissue as preset
-from trocar.waves.mesh.organ_name import ORGANS
-
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.status import Status
@@ -45,6 +41,8 @@ def organ_stage(
     """
     from trocar.contact.port_sets import instruments_over
     from trocar.simulation.live import LIVE_SIZE
+    from trocar.simulation.live_organ import live_organ, organ_mesh
+    from trocar.tissues.catalogue import tissue as preset
     from trocar.web.stage import organ_stage as stage_of_organ
 
     status.update("reading the mesh ...")
@@ -70,6 +68,8 @@ def left_out(mesh: str, organ: SolidMesh, tissue: Tissue) -> str:
         organ: made of the tissue.
         tissue: whose layers were asked for.
     """
+    from trocar.waves.mesh.organ_name import ORGANS
+
     taken = {material.name for material in organ.materials}
     lost = [layer.name for layer in tissue.layers if layer.name not in taken]
     if not lost:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from trocar.cli.options import options_named
 from trocar.errors import InputError
 
 if TYPE_CHECKING:
@@ -16,6 +17,14 @@ if TYPE_CHECKING:
 
 _PORT = 0
 _PAGE = "web"
+_OPTIONS = {  # what the library calls them
+    **{name: f"--{name}" for name in ("tissue", "ports", "model", "mesh", "device", "script", "recording")},
+    **{name: f"--{name}" for name in ("task", "level", "skill", "seed")},
+    **{name: f"--mesh-{name}" for name in ("unit", "up", "held", "touched")},
+    "drop_unused": "--mesh-drop-unused",
+    "host": "--listen",
+    "cert and key": "--cert and --key",
+}
 
 
 def register(app: typer.Typer) -> None:
@@ -23,6 +32,7 @@ def register(app: typer.Typer) -> None:
     app.command(epilog="Example: trocar train --tissue liver --ports oblique")(train)
 
 
+@options_named(_OPTIONS)
 def train(
     tissue: Annotated[
         str, typer.Option(help="A preset (trocar tissues list), or a tissue file.toml.")
@@ -58,6 +68,9 @@ def train(
     mesh_touched: Annotated[
         str | None, typer.Option(help="The group of its faces to press.", show_default="above")
     ] = None,
+    mesh_drop_unused: Annotated[
+        bool, typer.Option("--mesh-drop-unused", help="Leave out nodes of the file that no element has.")
+    ] = False,
     device: Annotated[
         str, typer.Option(help="What moves the instruments: web (the page), simulated, recorded.")
     ] = _PAGE,
@@ -138,10 +151,11 @@ def train(
     check_address(listen, port, cert, key)  # a mistake is told before what takes seconds to import
     nodules = tuple(_nodule(text) for text in nodule or ())
     reading: dict[str, Any] = {"unit": mesh_unit, "up": mesh_up, "held": mesh_held, "touched": mesh_touched}
+    reading["drop_unused"] = mesh_drop_unused or None
     reading = {option: value for option, value in reading.items() if value is not None}
     if mesh is None:
         for option in reading:
-            raise typer.BadParameter(f"--mesh-{option} goes with --mesh")
+            raise typer.BadParameter(f"{_OPTIONS[option]} goes with --mesh")
     elif model != "wave-membrane":
         raise typer.BadParameter("--model is for a block; a mesh moves by its own modes")
     elif device == "simulated":

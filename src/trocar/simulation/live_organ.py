@@ -20,12 +20,14 @@ from trocar.waves.mesh.inclusion import with_inclusion
 from trocar.waves.mesh.mesh_file import read_file
 from trocar.waves.mesh.organ import Liver
 from trocar.waves.mesh.organ_name import ORGANS, check_organ
+from trocar.waves.mesh.reading import check_unit
 from trocar.waves.mesh.solid_mesh import SolidMesh
 from trocar.waves.mesh.wave_mesh import WaveMesh
 
 _SPACING = (
     0.016  # [m] of a liver whose elements are a third as long about a nodule: as many as elsewhere in all
 )
+SHORTEST = 0.02  # [m] of an organ's longest side: four shafts of 5 mm, beside each other
 MODES = 60  # the lowest; what they leave of a press its site's own modes carry
 
 
@@ -60,6 +62,7 @@ def organ_mesh(
     up: str = "+z",
     held: str = "below",
     touched: str = "above",
+    drop_unused: bool = False,
     nodules: Sequence[Nodule] = (),
 ) -> SolidMesh:
     """Return the mesh that a name means.
@@ -72,12 +75,13 @@ def organ_mesh(
         up: which of its axes looks up.
         held: the group of its faces that does not move.
         touched: the group of its faces to press.
+        drop_unused: leave out nodes that no element has.
         nodules: balls of elements of another stiffness, as deep below the surface as they say. The liver's elements are
             shorter about the first.
 
     Raises:
-        InputError: there is no such organ, the file does not hold a mesh that can be a tissue, or a nodule lies
-            beside it or is as small as its elements.
+        InputError: there is no such organ, the file does not hold a mesh that can be a tissue, it is too small for the
+            instruments, or a nodule lies beside it or is as small as its elements.
     """
     check_organ(name, unit=unit, up=up)
     body = tissue.linearised.layers[-1]
@@ -88,9 +92,13 @@ def organ_mesh(
         return _with_nodules(Liver().mesh(body, spacing=_SPACING, around=around), nodules)
     path = Path(name)
     layers = {layer.name: layer for layer in tissue.linearised.layers}
-    named = [region for region in read_file(path).regions if region in layers]
+    file = read_file(path)
+    check_unit(file, unit, path, shortest=SHORTEST)
+    named = [region for region in file.regions if region in layers]
     materials: Layer | dict[str, Layer] = {region: layers[region] for region in named} if named else body
-    mesh = SolidMesh.read(path, materials, unit=unit, up=up, held=held, touched=touched)
+    mesh = SolidMesh.read(
+        path, materials, unit=unit, up=up, held=held, touched=touched, drop_unused=drop_unused
+    )
     return _with_nodules(mesh, nodules)
 
 
