@@ -7,8 +7,9 @@ import meshio
 import pytest
 
 from trocar.cli import main
-from trocar.cli.organ import left_out
+from trocar.cli.organ import left_out, name_of
 from trocar.simulation.live_organ import organ_mesh
+from trocar.tissues.catalogue import tissue
 from waves.mesh.mesh_files import ball, block_file
 from waves.mesh.meshes import BLOCK, LAYERS
 
@@ -36,6 +37,11 @@ def test_a_layer_that_no_region_is_named_after_is_named(tmp_path):
     assert (
         left_out(str(path), organ, more) == f"The organ is without film: {path} has no region of that name."
     )
+
+
+def test_the_page_is_told_organ_and_tissue():
+    assert name_of("scans/spleen.stl", tissue("liver")) == "spleen of liver"
+    assert name_of("liver", tissue("liver")) == "liver"
 
 
 def test_the_start_says_so(capsys, monkeypatch):

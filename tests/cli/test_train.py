@@ -12,6 +12,7 @@ import pytest
 
 from live_process import training
 from trocar.cli import main
+from trocar.contact.port_sets import PORT_SETS, USUAL
 from web.visitor import until
 
 PATIENCE = 240.0  # [s]: the first start compiles, on a machine that does other things
@@ -116,3 +117,10 @@ def test_a_busy_port_is_told_before_what_takes_minutes(capsys, monkeypatch):
         port = other.getsockname()[1]
         assert main(["train", "--no-browser", "--port", str(port)]) == 1
     assert f"port {port}: Address already in use; choose another port" in capsys.readouterr().err
+
+
+def test_the_help_names_every_set_of_ports(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    assert main(["train", "--help"]) == 0
+    sets = ", ".join((USUAL, *PORT_SETS))
+    assert f"Where the ports are: {sets}, or a file.toml." in " ".join(capsys.readouterr().out.split())

@@ -57,7 +57,18 @@ def organ_stage(
     def told(done: int, total: int) -> None:
         status.update(f"finding how the surface answers, {100 * done // total} %; kept for the next time ...")
 
-    return stage_of_organ(live_organ(organ, name=Path(mesh).stem, progress=told), ports=ports)
+    return stage_of_organ(live_organ(organ, name=name_of(mesh, layers), progress=told), ports=ports)
+
+
+def name_of(mesh: str, tissue: Tissue) -> str:
+    """Return what the page calls an organ: its own name, and the tissue's where that is another.
+
+    Args:
+        mesh: the organ's name, or its file's.
+        tissue: it is made of.
+    """
+    own = Path(mesh).stem
+    return own if own == tissue.name else f"{own} of {tissue.name}"
 
 
 def left_out(mesh: str, organ: SolidMesh, tissue: Tissue) -> str:

@@ -38,7 +38,7 @@ def train(
         str, typer.Option(help="A preset (trocar tissues list), or a tissue file.toml.")
     ] = "skin",
     ports: Annotated[
-        str, typer.Option(help="Where the ports are: usual, oblique, one-sided, or a file.toml.")
+        str, typer.Option(help="Where the ports are: usual, oblique, one-sided, scissors, or a file.toml.")
     ] = "usual",
     model: Annotated[str, typer.Option(help="What moves: wave-membrane or wave-solid.")] = "wave-membrane",
     nodule: Annotated[
