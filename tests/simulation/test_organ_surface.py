@@ -127,12 +127,17 @@ def test_no_such_organ_is_a_sentence(name):
 
 def test_what_was_prepared_is_kept(tmp_path):
     mesh = Liver().mesh(tissue("liver").layers[-1], spacing=0.03)
-    told = []
+    told, found = [], []
 
     def tell(done, total):
         told.append(done / total)
 
-    one = live_organ(mesh, name="liver", cache=BasisCache(tmp_path), progress=tell)
+    def find(done, total):
+        found.append(done / total)
+
+    one = live_organ(mesh, name="liver", cache=BasisCache(tmp_path), found=find, progress=tell)
+    assert found[-1] == 1.0
+    assert len(found) > 2
     assert told[-1] == 1.0
     assert sorted(told) == told
     asked = len(told)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.status import Status
 
+    from trocar.cli.doing import Doing
     from trocar.tissues.nodule import Nodule
     from trocar.tissues.tissue import Tissue
     from trocar.waves.mesh.solid_mesh import SolidMesh
@@ -22,7 +22,7 @@ def organ_stage(
     nodules: tuple[Nodule, ...],
     reading: dict[str, Any],
     log: Console,
-    status: Status,
+    doing: Doing,
 ) -> Stage:
     """Read an organ's mesh and find what answers a press anywhere on it.
 
@@ -33,7 +33,7 @@ def organ_stage(
         nodules: in it.
         reading: how the file is read, as `organ_mesh` takes it.
         log: where notices go.
-        status: what is being done.
+        doing: told what is being done.
 
     Raises:
         InputError: something named is not there or does not go together.
@@ -45,19 +45,23 @@ def organ_stage(
     from trocar.tissues.catalogue import tissue as preset
     from trocar.web.stage import organ_stage as stage_of_organ
 
-    status.update("reading the mesh ...")
+    doing.at("reading the mesh")
     layers = preset(tissue)
     organ = organ_mesh(mesh, layers, nodules=nodules, **reading)
     notice = left_out(mesh, organ, layers)
     if notice:
         log.print(notice, markup=False)
     instruments_over(ports, organ.size, LIVE_SIZE)  # a mistake in them is told before the long work
-    status.update("finding the mesh's modes; kept for the next time ...")
-
-    def told(done: int, total: int) -> None:
-        status.update(f"finding how the surface answers, {100 * done // total} %; kept for the next time ...")
-
-    return stage_of_organ(live_organ(organ, name=name_of(mesh, layers), progress=told), ports=ports)
+    modes = "finding the mesh's modes (kept for the next time)"
+    answers = "finding how the surface answers (kept for the next time)"
+    doing.at(modes)
+    prepared = live_organ(
+        organ,
+        name=name_of(mesh, layers),
+        found=lambda done, total: doing.at(modes, done / total),
+        progress=lambda done, total: doing.at(answers, done / total),
+    )
+    return stage_of_organ(prepared, ports=ports)
 
 
 def name_of(mesh: str, tissue: Tissue) -> str:

@@ -169,6 +169,7 @@ def train(
 
     from rich.console import Console
 
+    from trocar.cli.doing import doing
     from trocar.cli.organ import organ_stage
     from trocar.records.store import Records
     from trocar.web.lessons import Lessons
@@ -178,11 +179,11 @@ def train(
 
     hands = _device(device, ports, script=script, seed=seed, recording=recording)
     log = Console(stderr=True, highlight=False)
-    with log.status("laying the tissue and its waves out ...") as status:
+    with doing(log, "laying the tissue and its waves out") as work:
         if mesh is None:
             stage = set_stage(tissue, ports=ports, model=model, nodules=nodules)
         else:
-            stage = organ_stage(mesh, tissue, ports, nodules, reading, log, status)
+            stage = organ_stage(mesh, tissue, ports, nodules, reading, log, work)
         if stage.tissue.large_deformation:
             log.print(
                 "The trainer's waves are linear: of the layers' laws for large strain they take the beginning. "
@@ -193,7 +194,7 @@ def train(
             log.print(records.note)
         trainer = Trainer(stage, device=hands, lessons=True)
         try:
-            status.update("starting the servo; the first time its code is compiled, a minute or so ...")
+            work.at("starting the servo; the first time its code is compiled, a minute or so")
             trainer.open()
         except BaseException:
             trainer.close()

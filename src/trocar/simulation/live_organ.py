@@ -36,6 +36,7 @@ def live_organ(
     *,
     name: str = "organ",
     cache: BasisCache | None = None,
+    found: Callable[[int, int], None] | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Organ:
     """Return an organ that a scene can be made of; what takes long is kept for the next time.
@@ -44,13 +45,14 @@ def live_organ(
         mesh: of it.
         name: what it is called.
         cache: where; None takes the usual folder.
+        found: told how many of its lowest modes are found, and of how many.
         progress: told how many systems of equations are solved, and of how many.
 
     Raises:
         InputError: nothing of it looks up, it is too large, or its materials damp differently or remember.
         SolverError: it is not held.
     """
-    model = WaveMesh(mesh, modes=MODES, cache=BasisCache() if cache is None else cache)
+    model = WaveMesh(mesh, modes=MODES, cache=BasisCache() if cache is None else cache, progress=found)
     return Organ.of(model, name=name, progress=progress)
 
 
