@@ -68,6 +68,7 @@ class WaveMesh:
         approach: along what a tool without tilt comes to a surface that slopes; on a level one there is no difference.
         cache: where modes, and vectors of presses, are looked for and kept; None computes them.
         massless: leaves inertia and Kelvin-Voigt damping out of `step`: what is left is creep.
+        progress: told how many modes are found, and of how many, while they are.
 
     Raises:
         InputError: fewer modes than one, or more than the mesh has; no such approach; too many relaxation times.
@@ -82,6 +83,7 @@ class WaveMesh:
         approach: Approach | str = Approach.NORMAL,
         cache: BasisCache | None = None,
         massless: bool = False,
+        progress: Callable[[int, int], None] | None = None,
     ) -> None:
         self.mesh = mesh
         self.elements = Elements(mesh)
@@ -95,6 +97,7 @@ class WaveMesh:
         self.approach = Approach(approach)
         self.massless = massless
         self._cache = cache
+        self._progress = progress
         self._vectors = lru_cache(maxsize=_REMEMBERED)(self._vectors_of)
         self._basis = lru_cache(maxsize=_REMEMBERED)(self._basis_of)
 
@@ -126,7 +129,7 @@ class WaveMesh:
     @cached_property
     def lowest(self) -> tuple[FloatArray, FloatArray]:
         """Squared angular frequencies [1/s^2], ascending, and modes [kg^-1/2], shape (r,) and (unknowns, r)."""
-        squares, modes = self.kept(lambda: self.matrices.modes(self.modes), "modes")
+        squares, modes = self.kept(lambda: self.matrices.modes(self.modes, progress=self._progress), "modes")
         return squares, modes
 
     def kept(self, make: Callable[[], tuple[FloatArray, ...]], *names: object) -> tuple[FloatArray, ...]:
