@@ -13,6 +13,7 @@ from trocar.model import Support
 from trocar.simulation.scene import DT, FRICTION, Scene, Tools, require_friction
 from trocar.tissues.layer import Layer
 from trocar.tissues.tissue import Tissue
+from trocar.waves.mesh.mesh_patch import stand
 from trocar.waves.mesh.mesh_tick import make_mesh_tick, picture_length
 from trocar.waves.mesh.press_grid import PER_WINDOW, PressGrid, press_grid, usual_window
 from trocar.waves.mesh.skin import block_of, skin
@@ -81,6 +82,22 @@ class Organ:
     def block(self) -> Tissue:
         """A flat block of the surface's material as thick as the organ: what the surface is like close by."""
         return block_of(self.model.mesh, self.grid.surface, self.name)
+
+
+def surface_heights(scene: Scene) -> Callable[[float, float], float]:
+    """Return a function of x and y [m] that tells how high an organ's surface lies at rest [m].
+
+    Beside what looks up it tells the height of the highest place, 0.
+
+    Args:
+        scene: of an organ.
+    """
+    cubic, frame = np.zeros(8), np.zeros((4, 3))
+
+    def height(x: float, y: float) -> float:
+        return float(frame[0, 2]) if stand(scene.tick, x, y, cubic, frame) else 0.0
+
+    return height
 
 
 def make_organ_scene(

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from trocar.errors import InputError
-from trocar.simulation.live_organ import ORGANS, organ_mesh
+from trocar.simulation.live_organ import organ_mesh
 from trocar.study.cases import quantity as q
 from trocar.tissues import Layer, Tissue
 from trocar.tissues.key_table import Table
