@@ -8,6 +8,8 @@ from functools import cached_property
 from math import sqrt
 from typing import Self
 
+import numpy as np
+
 from trocar.contact.instrument import Instrument
 from trocar.model import Support
 from trocar.simulation.scene import DT, FRICTION, Scene, Tools, require_friction

@@ -11,6 +11,7 @@ from trocar.simulation.live_organ import organ_mesh
 from trocar.study.cases import quantity as q
 from trocar.tissues import Layer, Tissue
 from trocar.tissues.key_table import Table
+from trocar.waves.mesh.organ_name import ORGANS
 from trocar.waves.mesh.solid_mesh import LONGEST, SolidMesh
 
 ANY_THICKNESS = LONGEST
