@@ -7,6 +7,7 @@ import numpy as np
 
 from trocar.simulation import HANDLE, JAW, PRESENT, ROLL
 from trocar.training.players import ScriptedPlayer, Skill
+from trocar.training.session import ground_of
 from trocar.training.tasks.moment import Moment
 from trocar.training.tasks.palpate import palpate
 from trocar.training.tasks.progress import Progress
@@ -25,7 +26,7 @@ class Hands:
 
     def __init__(self, servo, attempted, skill=Skill.EXPERT):
         self.servo, self.task = servo, attempted
-        self.player = ScriptedPlayer(attempted.instruments, skill, 1, dt=PERIOD)
+        self.player = ScriptedPlayer(attempted.instruments, skill, 1, dt=PERIOD, ground=ground_of(attempted))
         self.progress, self.began = Progress(attempted), time.monotonic()
 
     def move(self):

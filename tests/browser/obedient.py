@@ -76,8 +76,9 @@ class Obedient(ABC):
             case "Go to the mark." | "Go to the mark, jaw open." | "Go to where the cut ends, blades open.":
                 self.jaw(hand, is_open=True)
                 away = np.hypot(*(place - tip[:2]))
-                up = ABOVE if away > 2 * marks[0]["radius_m"] else max(tip[2], 0.5e-3)
-                self.move(hand, [*(place if tip[2] > 0.6 * up else tip[:2]), up], seen=tip)
+                height = self.height(tip)
+                up = ABOVE if away > 2 * marks[0]["radius_m"] else max(height, 0.5e-3)
+                self.move(hand, self.over(place if height > 0.6 * up else tip[:2], up), seen=tip)
             case "Keep touching it.":
                 self.press(hand, tip[:2], tip, force, wanted)
             case "Down, until it touches." | "Touch the line." | "Press lightly, jaw open.":
@@ -109,7 +110,7 @@ class Obedient(ABC):
             case "Up.":
                 self.move(hand, [*tip[:2], tip[2] + 1e-3], seen=tip)
             case _ if hint.endswith("tip out of the tissue first."):
-                self.move(hand, [*tip[:2], ABOVE], seen=tip)
+                self.move(hand, self.over(tip[:2], ABOVE), seen=tip)
             case _:
                 assert hint in {"", "Get ready."}, f"nobody knows what to do at {hint!r}"
 
@@ -130,20 +131,43 @@ class Obedient(ABC):
         self.going = None
         way = place - tip[:2]
         if force == 0.0:  # the surface is near zero; from there on it is felt
-            down = tip[2] - 2e-4 if tip[2] > 4e-4 else 8e-5
+            height = self.height(tip)
+            down = height - 2e-4 if height > 4e-4 else 8e-5
         else:
             down = np.clip((wanted - force) / 350.0, -2e-4, 6e-5)  # [N/m] stiffer than the tissue is
-        self.move(hand, [*(tip[:2] + way), tip[2] - down], seen=tip)
+        self.move(hand, self.over(tip[:2] + way, self.height(tip) - down), seen=tip)
 
     def take_hold(self, hand, place, tip, force, wanted):
         """Close the jaw on the tissue at a place, once it is pressed a little."""
         away = np.hypot(*(place - tip[:2]))
         if force == 0.0 and away > 1e-3:
-            self.move(hand, [*(place if tip[2] > 0.6 * ABOVE else tip[:2]), ABOVE], seen=tip)
+            self.move(hand, self.over(place if self.height(tip) > 0.6 * ABOVE else tip[:2], ABOVE), seen=tip)
         elif force < 0.5 * wanted:
             self.press(hand, place, tip, force, wanted)
         else:
             self.jaw(hand, is_open=False)
+
+    def ground(self, place):
+        """Return how high the tissue at rest is drawn at a place [m]."""
+        hello = self.watcher.hello
+        if hello["shape"] is None:
+            return 0.0
+        nx, ny = hello["grid"]
+        i, j = np.clip(
+            np.asarray(place) / hello["tissue"]["size_m"] * (nx - 1, ny - 1), 0, (nx - 1.001, ny - 1.001)
+        )
+        rest = np.array(hello["shape"]["rest_m"], dtype=float).reshape(ny, nx)
+        a, b = i % 1, j % 1
+        corners = rest[int(j) : int(j) + 2, int(i) : int(i) + 2]
+        return float(np.nan_to_num([1 - b, b] @ corners @ [1 - a, a]))
+
+    def height(self, tip):
+        """Return how high a tip is over the tissue at rest [m]."""
+        return tip[2] - self.ground(tip[:2])
+
+    def over(self, place, height):
+        """Return the place so high over the tissue [m]."""
+        return [*place, self.ground(place) + height]
 
     def tip(self, hand):
         return np.array(self.state.instruments[hand].tip)

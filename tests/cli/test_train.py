@@ -2,6 +2,8 @@
 
 import os
 import signal
+import socket
+import sys
 from pathlib import Path
 from urllib.parse import urlsplit
 from urllib.request import urlopen
@@ -10,6 +12,7 @@ import pytest
 
 from live_process import training
 from trocar.cli import main
+from trocar.contact.port_sets import PORT_SETS, USUAL
 from web.visitor import until
 
 PATIENCE = 240.0  # [s]: the first start compiles, on a machine that does other things
@@ -55,7 +58,7 @@ def test_however_it_ends_nothing_stays_behind(ending):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--tissue", "granite"], "granite"),
+        (["--tissue", "granite"], "--tissue: expected one of"),
         (["--model", "fea"], "wave-membrane or wave-solid"),
         (["--ports", "oblik"], "did you mean oblique?"),
         (["--mesh", "kidney"], "liver, or a file that ends in"),
@@ -72,7 +75,8 @@ def test_however_it_ends_nothing_stays_behind(ending):
         (["--device", "recorded", "--script", "press", "--recording", str(RECORDING)], "script"),
         (["--device", "simulated", "--script", "juggle"], "juggle"),
         (["--script", "press"], "--script is for devices other than web"),
-        (["--listen", "192.0.2.1"], "without cert and key"),
+        (["--mesh-drop-unused"], "--mesh-drop-unused goes with --mesh"),
+        (["--listen", "192.0.2.1"], "--listen: expected this machine alone without cert and key"),
         (["--listen", "0.0.0.0"], "one address of this machine"),
         (["--cert", "none.pem"], "both or neither"),
         (["--port", "70000"], "70000"),
@@ -88,3 +92,35 @@ def test_mistakes_are_refused_before_anything_is_started(options, words, capsys,
     assert (code, out) == (2, "")
     assert words in " ".join(err.split())
     assert "Traceback" not in err
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--mesh", "none.stl"], "a mesh file that can be read"),
+        (["--mesh", "kidney"], "liver, or a file that ends in"),
+        (["--mesh", "liver", "--mesh-unit", "inch"], "--mesh-unit: expected one of m, cm, mm, um"),
+        (["--mesh", "liver", "--mesh-up", "z"], "--mesh-up: expected one of +z, -z"),
+    ],
+)
+def test_a_mistake_about_a_mesh_is_told_before_what_takes_seconds_to_import(
+    options, words, capsys, monkeypatch
+):
+    monkeypatch.setitem(sys.modules, "trocar.web.serve", None)  # to import it fails
+    assert main(["train", "--no-browser", *options]) == 2
+    assert words in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_busy_port_is_told_before_what_takes_minutes(capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "trocar.web.serve", None)  # to import it fails
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        assert main(["train", "--no-browser", "--port", str(port)]) == 1
+    assert f"port {port}: Address already in use; choose another port" in capsys.readouterr().err
+
+
+def test_the_help_names_every_set_of_ports(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    assert main(["train", "--help"]) == 0
+    sets = ", ".join((USUAL, *PORT_SETS))
+    assert f"Where the ports are: {sets}, or a file.toml." in " ".join(capsys.readouterr().out.split())

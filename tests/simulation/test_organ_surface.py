@@ -6,7 +6,7 @@ import pytest
 from trocar.contact.instrument import TipKind
 from trocar.errors import InputError
 from trocar.simulation import FORCE, RECORD, amplitudes, at_rest, line, played, poses_along
-from trocar.simulation.live_organ import ORGANS, live_organ, organ_mesh
+from trocar.simulation.live_organ import live_organ, organ_mesh
 from trocar.simulation.organ import Organ, make_organ_scene
 from trocar.simulation.organ_surface import OrganSurface
 from trocar.study.contact.scenes import upright
@@ -15,6 +15,7 @@ from trocar.tissues.nodule import Nodule
 from trocar.waves.mesh.basis_cache import BasisCache
 from trocar.waves.mesh.elements import Elements
 from trocar.waves.mesh.organ import Liver
+from trocar.waves.mesh.organ_name import ORGANS
 from trocar.waves.mesh.press_grid import cubic_table
 from trocar.waves.mesh.wave_mesh import WaveMesh
 
@@ -126,12 +127,17 @@ def test_no_such_organ_is_a_sentence(name):
 
 def test_what_was_prepared_is_kept(tmp_path):
     mesh = Liver().mesh(tissue("liver").layers[-1], spacing=0.03)
-    told = []
+    told, found = [], []
 
     def tell(done, total):
         told.append(done / total)
 
-    one = live_organ(mesh, name="liver", cache=BasisCache(tmp_path), progress=tell)
+    def find(done, total):
+        found.append(done / total)
+
+    one = live_organ(mesh, name="liver", cache=BasisCache(tmp_path), found=find, progress=tell)
+    assert found[-1] == 1.0
+    assert len(found) > 2
     assert told[-1] == 1.0
     assert sorted(told) == told
     asked = len(told)

@@ -27,7 +27,8 @@ def compare(
         str | None,
         typer.Option(
             help="Models, separated by commas: wave-membrane, wave-solid, wave-mesh, fea, mass-spring, mesh-free. "
-            "Default: wave-solid,fea; with a rigid tip wave-solid,wave-membrane."
+            "Default: wave-solid,fea; with a rigid tip wave-solid,wave-membrane; on a mesh wave-mesh, the one "
+            "that takes it."
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON alone on stdout.")] = False,
@@ -38,11 +39,11 @@ def compare(
 
     from trocar.study.cases.reading import load_case
     from trocar.study.compare import compare as run
-    from trocar.study.models import check_names, usual_models
+    from trocar.study.compare import models_for
 
     experiment = load_case(case)
     asked = None if models is None else [name.strip() for name in models.split(",") if name.strip()]
-    names = usual_models(experiment) if asked is None else check_names(asked)
+    names = models_for(experiment, asked)
     with Progress(console=Console(stderr=True), transient=True) as bars:
         tasks = {name: bars.add_task(name, total=1.0) for name in names}
         result = run(experiment, names, watch=lambda name, share: bars.update(tasks[name], completed=share))
@@ -62,12 +63,13 @@ def _print(result: Comparison) -> None:
     case = result.case
     peaks = " and ".join(f"{tool.peak:g}" for tool in case.tools)
     sides = " x ".join(f"{side / MILLIMETRE:g}" for side in case.size)
-    console.print(f"[bold]{case.title}[/]: {sides} mm, support {case.support.value}, peak {peaks} N")
+    held = f"support {case.support.value}" if case.mesh is None else f"{len(case.mesh.cells)} elements"
+    console.print(f"[bold]{case.title}[/]: {sides} mm, {held}, peak {peaks} N")
     table = Table()
     table.add_column("largest deflection, mm")
     for history in result.histories:
         table.add_column(history.model, justify="right")
-    for layer in case.tissue.layer_names:
+    for layer in case.faces:
         table.add_row(
             layer, *(f"{history.deflection[layer].max() / MILLIMETRE:.4g}" for history in result.histories)
         )

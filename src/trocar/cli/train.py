@@ -7,18 +7,24 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from trocar.cli.options import options_named
 from trocar.errors import InputError
 
 if TYPE_CHECKING:
-    from rich.status import Status
-
     from trocar.devices.device import Device
     from trocar.tissues.nodule import Nodule
     from trocar.web.serve import Served
-    from trocar.web.stage import Stage
 
 _PORT = 0
 _PAGE = "web"
+_OPTIONS = {  # what the library calls them
+    **{name: f"--{name}" for name in ("tissue", "ports", "model", "mesh", "device", "script", "recording")},
+    **{name: f"--{name}" for name in ("task", "level", "skill", "seed")},
+    **{name: f"--mesh-{name}" for name in ("unit", "up", "held", "touched")},
+    "drop_unused": "--mesh-drop-unused",
+    "host": "--listen",
+    "cert and key": "--cert and --key",
+}
 
 
 def register(app: typer.Typer) -> None:
@@ -26,12 +32,13 @@ def register(app: typer.Typer) -> None:
     app.command(epilog="Example: trocar train --tissue liver --ports oblique")(train)
 
 
+@options_named(_OPTIONS)
 def train(
     tissue: Annotated[
         str, typer.Option(help="A preset (trocar tissues list), or a tissue file.toml.")
     ] = "skin",
     ports: Annotated[
-        str, typer.Option(help="Where the ports are: usual, oblique, one-sided, or a file.toml.")
+        str, typer.Option(help="Where the ports are: usual, oblique, one-sided, scissors, or a file.toml.")
     ] = "usual",
     model: Annotated[str, typer.Option(help="What moves: wave-membrane or wave-solid.")] = "wave-membrane",
     nodule: Annotated[
@@ -61,6 +68,9 @@ def train(
     mesh_touched: Annotated[
         str | None, typer.Option(help="The group of its faces to press.", show_default="above")
     ] = None,
+    mesh_drop_unused: Annotated[
+        bool, typer.Option("--mesh-drop-unused", help="Leave out nodes of the file that no element has.")
+    ] = False,
     device: Annotated[
         str, typer.Option(help="What moves the instruments: web (the page), simulated, recorded.")
     ] = _PAGE,
@@ -136,34 +146,44 @@ def train(
     for option in (option for option, given in attempted.items() if given is not None):
         raise typer.BadParameter(f"--{option} is for --headless: on the page, tasks are chosen there")
 
-    from rich.console import Console
+    from trocar.web.address import check_address
 
-    from trocar.records.store import Records
-    from trocar.web.lessons import Lessons
-    from trocar.web.serve import check_address, serve
-    from trocar.web.stage import set_stage
-    from trocar.web.trainer import Trainer
-
+    check_address(listen, port, cert, key)  # a mistake is told before what takes seconds to import
     nodules = tuple(_nodule(text) for text in nodule or ())
-    reading = {"unit": mesh_unit, "up": mesh_up, "held": mesh_held, "touched": mesh_touched}
+    reading: dict[str, Any] = {"unit": mesh_unit, "up": mesh_up, "held": mesh_held, "touched": mesh_touched}
+    reading["drop_unused"] = mesh_drop_unused or None
     reading = {option: value for option, value in reading.items() if value is not None}
     if mesh is None:
         for option in reading:
-            raise typer.BadParameter(f"--mesh-{option} goes with --mesh")
+            raise typer.BadParameter(f"{_OPTIONS[option]} goes with --mesh")
     elif model != "wave-membrane":
         raise typer.BadParameter("--model is for a block; a mesh moves by its own modes")
     elif device == "simulated":
         raise typer.BadParameter(
             "--device simulated presses a level block; with --mesh take the page's hands"
         )
+    else:
+        from trocar.waves.mesh.organ_name import check_organ
+
+        check_organ(mesh, **{name: reading[name] for name in ("unit", "up") if name in reading})
+
+    from rich.console import Console
+
+    from trocar.cli.doing import doing
+    from trocar.cli.organ import organ_stage
+    from trocar.records.store import Records
+    from trocar.web.lessons import Lessons
+    from trocar.web.serve import serve
+    from trocar.web.stage import set_stage
+    from trocar.web.trainer import Trainer
+
     hands = _device(device, ports, script=script, seed=seed, recording=recording)
-    check_address(listen, cert, key)
     log = Console(stderr=True, highlight=False)
-    with log.status("laying the tissue and its waves out ...") as status:
+    with doing(log, "laying the tissue and its waves out") as work:
         if mesh is None:
             stage = set_stage(tissue, ports=ports, model=model, nodules=nodules)
         else:
-            stage = _organ_stage(mesh, tissue, ports, nodules, reading, status)
+            stage = organ_stage(mesh, tissue, ports, nodules, reading, log, work)
         if stage.tissue.large_deformation:
             log.print(
                 "The trainer's waves are linear: of the layers' laws for large strain they take the beginning. "
@@ -174,7 +194,7 @@ def train(
             log.print(records.note)
         trainer = Trainer(stage, device=hands, lessons=True)
         try:
-            status.update("starting the servo; the first time its code is compiled, a minute or so ...")
+            work.at("starting the servo; the first time its code is compiled, a minute or so")
             trainer.open()
         except BaseException:
             trainer.close()
@@ -194,32 +214,6 @@ def train(
         trainer.close()
         records.close()
     log.print("The trainer has stopped.")
-
-
-def _organ_stage(
-    mesh: str,
-    tissue: str,
-    ports: str,
-    nodules: tuple[Nodule, ...],
-    reading: dict[str, Any],
-    status: Status,
-) -> Stage:
-    """Read an organ's mesh and find what answers a press anywhere on it."""
-    from trocar.contact.port_sets import instruments_over
-    from trocar.simulation.live import LIVE_SIZE
-    from trocar.simulation.live_organ import live_organ, organ_mesh
-    from trocar.tissues.catalogue import tissue as preset
-    from trocar.web.stage import organ_stage
-
-    status.update("reading the mesh ...")
-    organ = organ_mesh(mesh, preset(tissue), nodules=nodules, **reading)
-    instruments_over(ports, organ.size, LIVE_SIZE)  # a mistake in them is told before the long work
-    status.update("finding the mesh's modes; kept for the next time ...")
-
-    def told(done: int, total: int) -> None:
-        status.update(f"finding how the surface answers, {100 * done // total} %; kept for the next time ...")
-
-    return organ_stage(live_organ(organ, name=Path(mesh).stem, progress=told), ports=ports)
 
 
 def _nodule(text: str) -> Nodule:

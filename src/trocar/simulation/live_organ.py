@@ -17,15 +17,17 @@ from trocar.tissues.tissue import Tissue
 from trocar.waves.mesh.basis_cache import BasisCache
 from trocar.waves.mesh.elements import Elements
 from trocar.waves.mesh.inclusion import with_inclusion
-from trocar.waves.mesh.mesh_file import ENDINGS, read_file
-from trocar.waves.mesh.organ import Liver
+from trocar.waves.mesh.mesh_file import read_file
+from trocar.waves.mesh.organ import EVEN_SPACING, Liver
+from trocar.waves.mesh.organ_name import ORGANS, check_organ
+from trocar.waves.mesh.reading import check_unit
 from trocar.waves.mesh.solid_mesh import SolidMesh
 from trocar.waves.mesh.wave_mesh import WaveMesh
 
-ORGANS = ("liver",)
 _SPACING = (
-    0.016  # [m] of a liver whose elements are a third as long about a nodule: as many as elsewhere in all
+    0.016  # [m] of a liver whose elements are a third as long about a place: as many as elsewhere in all
 )
+SHORTEST = 0.02  # [m] of an organ's longest side: four shafts of 5 mm, beside each other
 MODES = 60  # the lowest; what they leave of a press its site's own modes carry
 
 
@@ -34,6 +36,7 @@ def live_organ(
     *,
     name: str = "organ",
     cache: BasisCache | None = None,
+    found: Callable[[int, int], None] | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Organ:
     """Return an organ that a scene can be made of; what takes long is kept for the next time.
@@ -42,13 +45,14 @@ def live_organ(
         mesh: of it.
         name: what it is called.
         cache: where; None takes the usual folder.
+        found: told how many of its lowest modes are found, and of how many.
         progress: told how many systems of equations are solved, and of how many.
 
     Raises:
         InputError: nothing of it looks up, it is too large, or its materials damp differently or remember.
         SolverError: it is not held.
     """
-    model = WaveMesh(mesh, modes=MODES, cache=BasisCache() if cache is None else cache)
+    model = WaveMesh(mesh, modes=MODES, cache=BasisCache() if cache is None else cache, progress=found)
     return Organ.of(model, name=name, progress=progress)
 
 
@@ -60,6 +64,9 @@ def organ_mesh(
     up: str = "+z",
     held: str = "below",
     touched: str = "above",
+    drop_unused: bool = False,
+    spacing: float | None = None,
+    around: tuple[float, float] | None = None,
     nodules: Sequence[Nodule] = (),
 ) -> SolidMesh:
     """Return the mesh that a name means.
@@ -72,26 +79,40 @@ def organ_mesh(
         up: which of its axes looks up.
         held: the group of its faces that does not move.
         touched: the group of its faces to press.
+        drop_unused: leave out nodes that no element has.
+        spacing: of the elements of an organ that Trocar makes, or that fill a surface [m]; None takes the usual one.
+        around: x and y of a place where tools press [m]; the liver's elements are shorter there, those of a file not.
         nodules: balls of elements of another stiffness, as deep below the surface as they say. The liver's elements are
-            shorter about the first.
+            shorter about the first, where no other place is given.
 
     Raises:
-        InputError: there is no such organ, the file does not hold a mesh that can be a tissue, or a nodule lies
-            beside it or is as small as its elements.
+        InputError: there is no such organ, the file does not hold a mesh that can be a tissue, it is too small for the
+            instruments, or a nodule lies beside it or is as small as its elements.
     """
+    check_organ(name, unit=unit, up=up)
     body = tissue.linearised.layers[-1]
     if name in ORGANS:
-        if not nodules:
-            return Liver().mesh(body)
-        around = nodules[0].x, nodules[0].y
-        return _with_nodules(Liver().mesh(body, spacing=_SPACING, around=around), nodules)
+        if around is None and nodules:
+            around = nodules[0].x, nodules[0].y
+        if spacing is None:
+            spacing = EVEN_SPACING if around is None else _SPACING
+        return _with_nodules(Liver().mesh(body, spacing=spacing, around=around), nodules)
     path = Path(name)
-    if path.suffix.lower() not in ENDINGS:
-        raise InputError("mesh", f"{' or '.join(ORGANS)}, or a file that ends in {' '.join(ENDINGS)}", name)
     layers = {layer.name: layer for layer in tissue.linearised.layers}
-    named = [region for region in read_file(path).regions if region in layers]
+    file = read_file(path)
+    check_unit(file, unit, path, shortest=SHORTEST)
+    named = [region for region in file.regions if region in layers]
     materials: Layer | dict[str, Layer] = {region: layers[region] for region in named} if named else body
-    mesh = SolidMesh.read(path, materials, unit=unit, up=up, held=held, touched=touched)
+    mesh = SolidMesh.read(
+        path,
+        materials,
+        unit=unit,
+        up=up,
+        held=held,
+        touched=touched,
+        drop_unused=drop_unused,
+        spacing=spacing,
+    )
     return _with_nodules(mesh, nodules)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from math import sqrt
 from typing import Self
@@ -15,9 +15,10 @@ from trocar.model import Support
 from trocar.simulation.scene import DT, FRICTION, Scene, Tools, require_friction
 from trocar.tissues.layer import Layer
 from trocar.tissues.tissue import Tissue
-from trocar.waves.mesh.faces import outer_faces
+from trocar.waves.mesh.mesh_patch import stand
 from trocar.waves.mesh.mesh_tick import make_mesh_tick, picture_length
 from trocar.waves.mesh.press_grid import PER_WINDOW, PressGrid, press_grid, usual_window
+from trocar.waves.mesh.skin import block_of, skin
 from trocar.waves.mesh.surface_modes import SurfaceModes, surface_modes
 from trocar.waves.mesh.wave_mesh import WaveMesh
 from trocar.waves.near_field import half_space
@@ -72,21 +73,33 @@ class Organ:
     @cached_property
     def skin(self) -> Layer:
         """The material that most of the pressed surface is made of."""
-        mesh = self.model.mesh
-        faces, elements = outer_faces(mesh.cells)
-        pressed = {tuple(face) for face in np.sort(mesh.surfaces[self.grid.surface], axis=1).tolist()}
-        own = [tuple(face) in pressed for face in np.sort(faces, axis=1).tolist()]
-        return mesh.materials[int(np.bincount(mesh.region[elements[own]]).argmax())]
+        return skin(self.model.mesh, self.grid.surface)
 
-    @cached_property
+    @property
     def thickness(self) -> float:
         """From the lowest to the highest point [m]."""
-        return float(np.ptp(self.model.mesh.corners[:, 2]))
+        return self.model.mesh.thickness
 
     @cached_property
     def block(self) -> Tissue:
         """A flat block of the surface's material as thick as the organ: what the surface is like close by."""
-        return Tissue(layers=(replace(self.skin, thickness=self.thickness),), name=self.name)
+        return block_of(self.model.mesh, self.grid.surface, self.name)
+
+
+def surface_heights(scene: Scene) -> Callable[[float, float], float]:
+    """Return a function of x and y [m] that tells how high an organ's surface lies at rest [m].
+
+    Beside what looks up it tells the height of the highest place, 0.
+
+    Args:
+        scene: of an organ.
+    """
+    cubic, frame = np.zeros(8), np.zeros((4, 3))
+
+    def height(x: float, y: float) -> float:
+        return float(frame[0, 2]) if stand(scene.tick, x, y, cubic, frame) else 0.0
+
+    return height
 
 
 def make_organ_scene(

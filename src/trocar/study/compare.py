@@ -9,7 +9,7 @@ from functools import partial
 from trocar.errors import InputError
 from trocar.study.cases.experiment import Case
 from trocar.study.history import History, run
-from trocar.study.models import MODELS, AnyModel, check_names, usual_models
+from trocar.study.models import MODELS, ON_MESHES, AnyModel, check_names, usual_models
 from trocar.study.stated_range import WAVES
 from trocar.units import MILLIMETRE
 
@@ -43,12 +43,35 @@ class Comparison:
                 "size_mm": [side / MILLIMETRE for side in case.size],
                 "support": case.support.value,
                 "layers": list(case.tissue.layer_names),
+                "elements": None if case.mesh is None else len(case.mesh.cells),
                 "tools": len(case.tools),
                 "peak_n": case.peak_force,
                 "dynamic": case.sampling.dynamic,
             },
             "models": {history.model: _plain(history) for history in self.histories},
         }
+
+
+def models_for(case: Case, models: Sequence[str] | None) -> tuple[str, ...]:
+    """Return the models that a case is run through, each once.
+
+    Args:
+        case: the experiment.
+        models: names; None for the usual ones of such a case.
+
+    Raises:
+        InputError: a name is unknown, or that model takes no rigid tip or no mesh.
+    """
+    if models is None:
+        return usual_models(case)
+    names = check_names(models)
+    for name in names:
+        if case.mesh is not None and name not in ON_MESHES:
+            taking = f"{' or '.join(ON_MESHES)}, which takes a mesh"
+            raise InputError("models", taking, name, "the other models are for blocks")
+        if case.rigid and name not in WAVES:
+            raise InputError("models", f"{' or '.join(WAVES)}, which take a rigid tip", name)
+    return names
 
 
 def compare(
@@ -67,13 +90,10 @@ def compare(
         watch: told the model and the share of it done, 0 to 1, as the work goes on.
 
     Raises:
-        InputError: a name is unknown, or that model takes no rigid tip.
+        InputError: a name is unknown, or that model takes no rigid tip or no mesh.
         SolverError: a model could not be solved.
     """
-    names = usual_models(case) if models is None else check_names(models)
-    for name in names:
-        if case.rigid and name not in WAVES:
-            raise InputError("models", f"{' or '.join(WAVES)}, which take a rigid tip", name)
+    names = models_for(case, models)
     histories = tuple(run(case, name, builders[name], partial(watch, name)) for name in names)
     return Comparison(case=case, histories=histories)
 

@@ -13,8 +13,8 @@ from scipy.interpolate import PchipInterpolator
 
 from trocar.model import FloatArray, Load, State
 from trocar.study.cases.experiment import Case
-from trocar.study.deflection import deflections, search_points
-from trocar.study.linear_range import LinearRange, linear_range
+from trocar.study.deflection import deflections, points_over
+from trocar.study.linear_range import LinearRange, linear_range, range_on_mesh
 from trocar.study.models import AnyModel
 from trocar.study.rigid import RigidTips
 from trocar.study.stated_range import departures
@@ -36,7 +36,7 @@ class History:
         model: its name.
         time: samples [s], shape (n,).
         force: of all tools together, along their axes [N], shape (n,).
-        deflection: largest of each layer's upper face [m], layers top first, each of shape (n,).
+        deflection: largest of each face [m], of layers their upper ones, top first, each of shape (n,).
         cpu_seconds: processor time of building the model and of all samples [s].
         setup_seconds: the part of it spent before the first sample [s].
         dofs: unknowns solved for.
@@ -84,7 +84,7 @@ def run(
     began = process_time()
     model: Any = build(case)
     times = case.sample_times()
-    layers = case.tissue.layer_names
+    layers = case.faces
     peaks = tuple(tool.press(tool.peak) for tool in case.tools)
     furthest: State | None = None
     large = getattr(model, "large_deformation", False)
@@ -119,7 +119,9 @@ def run(
         ),
         linear_range=_range_at_small_strain(case, build, peaks)
         if large
-        else linear_range(model, case.tissue, peaks, furthest),
+        else linear_range(model, case.tissue, peaks, furthest)
+        if case.mesh is None
+        else range_on_mesh(case.mesh, case.faces[0], peaks),
         large_deformation=large,
     )
 
@@ -129,8 +131,8 @@ def _quasi_static(
 ) -> tuple[FloatArray, float]:
     """Superpose each tool's response to 1 N: the models are linear, so equilibria add and scale."""
     load = case.load_at(0.0)
-    points = search_points(case.size, load)
-    layers = case.tissue.layer_names
+    points = points_over(case)
+    layers = case.faces
     units = []
     for i, press in enumerate(load):
         units.append(deflections(model, model.static((press.with_force(1.0),)), points, layers))
@@ -149,7 +151,7 @@ def _following(
     case: Case, model: AnyModel, times: FloatArray, progress: Progress
 ) -> tuple[FloatArray, float]:
     """Find equilibria that do not superpose: few of a load that keeps its direction, else every one."""
-    points = search_points(case.size, case.load_at(0.0))
+    points = points_over(case)
     setup = process_time()
     totals = np.array([[press.force for press in case.load_at(t)] for t in times])
     distinct, places = np.unique(totals, axis=0, return_inverse=True)
@@ -157,12 +159,12 @@ def _following(
     direction = distinct[np.argmax(sizes)] / sizes.max()
     alike = bool(np.allclose(distinct, np.outer(sizes, direction), rtol=_SAME, atol=_SAME * sizes.max()))
     forces = np.outer(_spread(sizes), direction) if alike else distinct
-    depths = np.zeros((len(forces), len(case.tissue.layer_names)))
+    depths = np.zeros((len(forces), len(case.faces)))
     load = case.load_at(0.0)
     for i, at in enumerate(forces):
         if at.any():
             pressed = tuple(press.with_force(float(force)) for press, force in zip(load, at, strict=True))
-            depths[i] = deflections(model, model.static(pressed), points, case.tissue.layer_names).max(axis=1)
+            depths[i] = deflections(model, model.static(pressed), points, case.faces).max(axis=1)
         progress((i + 1) / len(forces))
     if alike:
         depths = _between(forces.max(axis=1), depths, sizes)
@@ -179,8 +181,8 @@ def _rigid(case: Case, model: Any, times: FloatArray, progress: Progress) -> tup
     """Press rigid tips to every distinct set of forces; return too what the linear range is judged by."""
     tips = RigidTips(model, case.tools)
     setup = process_time()
-    points = search_points(case.size, case.load_at(0.0))
-    layers = len(case.tissue.layer_names)
+    points = points_over(case)
+    layers = len(case.faces)
     totals = np.array([[tool.force(t) for tool in case.tools] for t in times])
     distinct, places = np.unique(totals, axis=0, return_inverse=True)
     forces = distinct if len(case.tools) > 1 else _spread(distinct[:, 0])[:, None]
@@ -228,8 +230,8 @@ def _moving(
     case: Case, model: AnyModel, times: FloatArray, progress: Progress
 ) -> tuple[FloatArray, float, State]:
     """Step through the load; return the state of the largest deflection too."""
-    points = search_points(case.size, case.load_at(0.0))
-    layers = case.tissue.layer_names
+    points = points_over(case)
+    layers = case.faces
     state = furthest = model.init()
     most = _MOST_STEPS if case.sampling.dynamic else _MOST_CREEPING_STEPS
     longest = max(model.longest_step, case.duration / most)

@@ -31,8 +31,11 @@ from math import cos, inf, isfinite, pi, sin, sqrt
 import numpy as np
 
 from trocar.errors import InputError
-from trocar.model import FloatArray, Load, Press, S, TissueModel
+from trocar.model import FloatArray, Load, Press, S, Support, TissueModel
 from trocar.tissues.tissue import Tissue
+from trocar.waves.mesh.skin import block_of
+from trocar.waves.mesh.solid_mesh import SolidMesh
+from trocar.waves.solid import WaveSolid
 
 AGREEMENT = 0.03
 """How closely linear and neo-Hookean deflection agree inside the range [1]."""
@@ -127,6 +130,18 @@ def linear_range(model: TissueModel[S], tissue: Tissue, load: Load, state: S | N
     # A moving block's energy is not its load's work: stretching grows as the square of the deflection.
     moving["stretching"] = still.stretching * (moving["deflection_share"] / still.deflection_share) ** 2
     return _verdict(moving, still.force_limit)
+
+
+def range_on_mesh(mesh: SolidMesh, surface: str, load: Load) -> LinearRange:
+    """Judge a flat block of the surface's material as thick as the mesh in the mesh's place, under a slow load.
+
+    Args:
+        mesh: of any shape.
+        surface: that is pressed.
+        load: presses over the mesh's rectangle; at least one with a force other than 0.
+    """
+    block = block_of(mesh, surface, surface)
+    return linear_range(WaveSolid(block, size=mesh.size, support=Support.BASE), block, load)
 
 
 def judged(tissue: Tissue, samples: Samples) -> LinearRange:

@@ -75,6 +75,8 @@ def _stiffening(case: Case, linear: WaveMembrane | WaveSolid) -> AnyModel:
 
 
 def _wave_mesh(case: Case) -> AnyModel:
+    if case.mesh is not None:
+        return WaveMesh(case.mesh, massless=not case.sampling.dynamic)
     lines = lines_around(case.tissue, case.size, case.load_at(0.0), support=case.support)
     mesh = block_mesh(case.tissue, lines, support=case.support)
     return WaveMesh(mesh, massless=not case.sampling.dynamic)
@@ -192,6 +194,9 @@ MODELS: dict[str, Callable[[Case], AnyModel]] = {
     "mass-spring": _mass_spring,
     "mesh-free": _mesh_free,
 }
+ON_MESHES = ("wave-mesh",)
+"""Models that take a case's mesh; the others are for blocks."""
+
 QUICK_MODELS = {
     **MODELS,
     "fea": _coarse_fea,  # a fifth of the unknowns, within 1.5 % instead of 0.2 %
@@ -205,6 +210,8 @@ def usual_models(case: Case) -> tuple[str, ...]:
 
     `WaveSolid` takes no Prony series where sides are clamped.
     """
+    if case.mesh is not None:
+        return ON_MESHES
     if case.rigid:
         return ("wave-solid", "wave-membrane")
     clamped = case.support.sides_clamped and case.tissue.relaxation_times

@@ -11,7 +11,7 @@ import numpy as np
 from trocar.model import FloatArray
 from trocar.simulation import DT
 from trocar.training.players import ScriptedPlayer, Skill, skill_of
-from trocar.training.session import Card, Recording, assess, perform
+from trocar.training.session import Card, Recording, assess, ground_of, perform
 from trocar.training.strip import KEEP_EVERY, told_tick_by_tick, write_piece
 from trocar.training.tasks.catalogue import task as task_by_name
 from trocar.training.tasks.task import Task
@@ -63,7 +63,7 @@ def attempt(
         InputError: there is no such task, level or skill, or the seed is negative.
     """
     task, kind = task_by_name(name, level), skill_of(skill)
-    player = ScriptedPlayer(task.instruments, kind, seed, dt=DT)
+    player = ScriptedPlayer(task.instruments, kind, seed, dt=DT, ground=ground_of(task))
     began = kept = time.monotonic()
     told = 0.0
     unkept: list[FloatArray] = []

@@ -9,8 +9,10 @@ player.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import repeat
 from math import inf, isinf, isnan, nan
 from typing import Protocol
 
@@ -31,12 +33,22 @@ from trocar.training.wish import Wish
 
 _THERE = 1e-4  # [m] from where a snip is meant
 _ABOVE = 4e-3  # [m] over the tissue, where a hand goes from mark to mark
+_CLEAR = 3e-3  # [m] over the tissue, at least, on the way
+_SHARES = tuple(np.linspace(0.1, 0.9, 9).tolist())  # of a way, at which it is looked at
 _GAIN = 0.1  # [m/(N s)] by which a hand corrects its depth: on skin it is there in a tenth of a second
 _CLOSE = 0.25  # [s] for a jaw
 _LIGHTEST = 0.4  # of the force that is right, that anybody presses with at first
 _RAISING = 0.125  # of the speed it comes down with, with tissue in the jaw
 _SNIPPED = 0.5  # of the most force, to cut with
 _LEARNING = 3e-3  # [1/tick] of an error that is seen is taken away
+
+
+Ground = Callable[[float, float], float]
+
+
+def level(x: float, y: float) -> float:
+    """Return how high a block's surface lies [m]."""
+    return 0.0
 
 
 class Skill(StrEnum):
@@ -134,13 +146,20 @@ class ScriptedPlayer:
         skill: which habits.
         seed: of its chances, 0 or above.
         dt: length of a tick [s].
+        ground: how high the tissue at rest lies at x, y [m], as it is seen.
 
     Raises:
         InputError: the seed is negative.
     """
 
     def __init__(
-        self, instruments: tuple[Instrument, Instrument], skill: Skill, seed: int, *, dt: float
+        self,
+        instruments: tuple[Instrument, Instrument],
+        skill: Skill,
+        seed: int,
+        *,
+        dt: float,
+        ground: Ground = level,
     ) -> None:
         if seed < 0:
             raise InputError("player: seed", "a whole number, 0 or above", seed)
@@ -155,6 +174,7 @@ class ScriptedPlayer:
                 np.random.default_rng((seed, hand, list(Skill).index(skill))),
                 f"{skill} {seed} {hand}",
                 dt,
+                ground,
             )
             for hand, instrument in enumerate(instruments)
         )
@@ -207,8 +227,10 @@ class _Hand:
         rng: np.random.Generator,
         seed: str,
         dt: float,
+        ground: Ground,
     ) -> None:
         self.number = number
+        self._ground = ground
         self._instrument, self._habits, self._rng, self._dt = instrument, habits, rng, dt
         self._tip = np.array(instrument.reach_of(instrument.handle).tip)
         self._tremor = Tremor(seed, habits.tremor)
@@ -226,7 +248,7 @@ class _Hand:
         time = moment.time
         if wish is None or self._missed or (self._aim is not None and wish.aim != self._aim):
             self._leave(moment)
-            if self._tip[2] >= 0.9 * _ABOVE and self._jaw == 1.0 and not moment.touches(self.number):
+            if self._height >= 0.9 * _ABOVE and self._jaw == 1.0 and not moment.touches(self.number):
                 self._aim, self._missed = None, False
         if wish is not None and self._aim is None:
             self._begin(wish, time)
@@ -246,10 +268,21 @@ class _Hand:
         self._miss = habits.miss * self._rng.uniform(-1, 1, 2)
         self._force_share, self._height_share = self._share(), nan
         pause = habits.pause * self._rng.uniform(0.5, 1.5)
-        target = np.array([*(np.array(wish.place) + self._miss), _ABOVE])
+        x, y = np.array(wish.place) + self._miss
+        target = np.array([x, y, self._ground(x, y) + _ABOVE])
         self._way = _Way(
-            self._tip, target, time + pause, habits.speed, habits.waver * self._rng.uniform(-1, 1, 2)
+            self._tip,
+            target,
+            time + pause,
+            habits.speed,
+            habits.waver * self._rng.uniform(-1, 1, 2),
+            self._ground,
         )
+
+    @property
+    def _height(self) -> float:
+        """How high the tip is over the tissue at rest [m]."""
+        return float(self._tip[2]) - self._ground(self._tip[0], self._tip[1])
 
     def _share(self) -> float:
         """Return the share of the force or height that is right, which this hand tries at first."""
@@ -321,19 +354,32 @@ class _Hand:
         self._way = None
         self._jaw = min(1.0, self._jaw + self._dt / _CLOSE)
         if not moment.holds(self.number):
-            self._tip[2] = min(_ABOVE, self._tip[2] + self._habits.lowering * 4 * self._dt)
+            highest = self._tip[2] - self._height + _ABOVE
+            self._tip[2] = min(highest, self._tip[2] + self._habits.lowering * 4 * self._dt)
 
 
 class _Way:
-    """A minimum-jerk way that may waver to a side."""
+    """A minimum-jerk way that may waver to a side; over what is higher than both its ends it goes in an arch."""
 
     def __init__(
-        self, start: FloatArray, end: FloatArray, begin: float, speed: float, waver: FloatArray
+        self,
+        start: FloatArray,
+        end: FloatArray,
+        begin: float,
+        speed: float,
+        waver: FloatArray,
+        ground: Ground,
     ) -> None:
         self._start, self._end, self._begin = start.copy(), end, begin
         self._waver = np.array([*waver, 0.0])
+        self._arch = np.array([0.0, 0.0, max(map(self._lacks, repeat(ground), _SHARES))])
         # A minimum-jerk way's highest speed is 15/8 of its mean.
         self._lasts = max(0.3, 15 / 8 * float(np.linalg.norm(end - start)) / speed)
+
+    def _lacks(self, ground: Ground, share: float) -> float:
+        """Return how much higher an arch must be to pass the ground at a share of the straight way [m]."""
+        x, y, z = self._start + share * (self._end - self._start)
+        return max(0.0, ground(x, y) + _CLEAR - float(z)) / (4 * share * (1 - share))
 
     @property
     def end(self) -> float:
@@ -345,4 +391,5 @@ class _Way:
         share = min(max((time - self._begin) / self._lasts, 0.0), 1.0)
         gone = share**3 * (10 - 15 * share + 6 * share**2)
         aside: FloatArray = np.sin(2 * np.pi * gone) * self._waver
-        return self._start + gone * (self._end - self._start) + aside
+        over = 4 * gone * (1 - gone) * self._arch
+        return self._start + gone * (self._end - self._start) + aside + over

@@ -17,16 +17,18 @@ from trocar.contact.instrument import Instrument
 from trocar.contact.tips import largest_sections
 from trocar.errors import InputError
 from trocar.model import FloatArray
-from trocar.simulation import DT, POSE, RECORD, make_scene
+from trocar.simulation import DT, POSE, RECORD, Scene, make_scene
 from trocar.simulation.kind import AnyScene, kind_of
 from trocar.simulation.live import live_model
+from trocar.simulation.organ import make_organ_scene, surface_heights
+from trocar.simulation.phantom import Phantom
 from trocar.simulation.sheet_scene import make_sheet_scene
 from trocar.tissues.catalogue import tissue
 from trocar.tissues.nodule import Nodule
 from trocar.tissues.tissue import Tissue
 from trocar.training.metrics.attempt import Attempt
 from trocar.training.metrics.measures import MEASURES, measured
-from trocar.training.players import Player
+from trocar.training.players import Ground, Player, level
 from trocar.training.score import score
 from trocar.training.tasks.moment import Moment
 from trocar.training.tasks.progress import TOO_MUCH, Mistake, Progress
@@ -129,7 +131,7 @@ def _model(name: str) -> WaveMembrane | WaveSolid:
 
 def scene_of(task: Task) -> AnyScene:
     """Return the scene a task is done in."""
-    return _scene(task.tissue, task.instruments, task.nodules, task.sheet)
+    return _scene(task.tissue, task.instruments, task.nodules, task.sheet, task.organ)
 
 
 @lru_cache(maxsize=8)
@@ -138,10 +140,26 @@ def _scene(
     instruments: tuple[Instrument, Instrument],
     nodules: tuple[Nodule, ...],
     sheet: Sheet | None,
+    organ: Phantom | None,
 ) -> AnyScene:
+    if organ is not None:
+        return make_organ_scene(organ.organ, instruments)
     if sheet is not None:
         return make_sheet_scene(sheet, instruments)
     return make_scene(_model(name), tissue(name), instruments, nodules=nodules)
+
+
+def _stuff(task: Task) -> Tissue:
+    return tissue(task.tissue) if task.organ is None else task.organ.stuff
+
+
+def ground_of(task: Task) -> Ground:
+    """Return how high the surface of what a task is done on lies at rest."""
+    if task.organ is None:
+        return level
+    scene = scene_of(task)
+    assert isinstance(scene, Scene)
+    return surface_heights(scene)
 
 
 def perform(
@@ -206,7 +224,7 @@ def judged(task: Task, times: FloatArray, records: FloatArray) -> tuple[Attempt,
         force_limit=task.force_limit,
         ideal_length=task.ideal_length if progress.done else nan,
         errors=len(progress.mistakes),
-        strength=nan if task.sheet is not None else _weakest(tissue(task.tissue)),
+        strength=nan if task.sheet is not None else _weakest(_stuff(task)),
         line=task.line,
         sections=largest_sections(scene_of(task).axes),
     )

@@ -10,7 +10,6 @@ from __future__ import annotations
 import asyncio
 import signal
 import socket
-import ssl
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -22,7 +21,7 @@ from typing import Any
 import uvicorn
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
-from trocar.errors import InputError, TrocarError
+from trocar.web.address import bound, checked_tls
 from trocar.web.application import CLIENT, application
 from trocar.web.conversation import FAREWELL_TIME, StreamLimits
 from trocar.web.doors import Doors
@@ -34,7 +33,6 @@ from trocar.web.source import LiveSource
 BEAT_PERIOD = 0.01  # [s]; a source must hear a beat every 20 ms, and lets its forces fall after 50 ms
 _BEATS_PER_ANNOUNCEMENT = 5
 _SHUTDOWN_TIME = 2  # for connections that do not close when the server stops [s]
-_STUCK_TIME = 5.0  # after which the kernel gives up a connection whose other end takes nothing [s]
 _LARGEST_HEADERS = 16384
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _DEFAULT_PORT = {"http": 80, "https": 443}
@@ -87,8 +85,8 @@ def serve(
         InputError: host, cert and key do not go together, or cannot be used.
         TrocarError: the address cannot be bound.
     """
-    secure = _checked_tls(cert, key)
-    listener = _bound(host, port, secure=secure)
+    secure = checked_tls(cert, key)
+    listener = bound(host, port, secure=secure)
     with listener:
         limits = limits or StreamLimits()
         live, sessions = Live(source, limits), Sessions()
@@ -129,16 +127,6 @@ def serve(
         )
         server.on_started = lambda: on_ready(served)
         asyncio.run(_run(server, listener, live))
-
-
-def check_address(host: str, cert: Path | None, key: Path | None) -> None:
-    """Refuse a host, certificate and key that `serve` would refuse, before anything slow is begun.
-
-    Raises:
-        InputError: they do not go together, or cannot be used.
-        TrocarError: the address cannot be bound.
-    """
-    _bound(host, 0, secure=_checked_tls(cert, key)).close()
 
 
 class _Stream(WebSocketsSansIOProtocol):
@@ -262,46 +250,6 @@ async def _beat(live: Live) -> None:
             live.announce()
         count += 1
         await asyncio.sleep(BEAT_PERIOD)
-
-
-def _checked_tls(cert: Path | None, key: Path | None) -> bool:
-    if cert is None and key is None:
-        return False
-    if cert is None or key is None:
-        raise InputError(
-            "cert and key", "both or neither", "one", "give the certificate chain and its private key"
-        )
-    try:
-        ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER).load_cert_chain(cert, key)
-    except OSError as error:  # ssl.SSLError is one
-        raise InputError("cert and key", "two PEM files that belong together", str(error)) from error
-    return True
-
-
-def _bound(host: str, port: int, *, secure: bool) -> socket.socket:
-    try:
-        family, kind, protocol, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
-    except (OSError, ValueError, OverflowError) as error:
-        advice = (error.strerror if isinstance(error, OSError) else None) or str(error)
-        raise InputError("host", "an address or name of this machine", host, advice) from error
-    found = ip_address(str(address[0]).partition("%")[0])
-    if found.is_unspecified:
-        advice = "name one, so that requests made out to any other can be refused"
-        raise InputError("host", "one address of this machine", host, advice)
-    if not found.is_loopback and not secure:
-        raise InputError(
-            "host", "this machine alone without cert and key", host, "give both, or listen on 127.0.0.1"
-        )
-    listener = socket.socket(family, kind, protocol)
-    try:
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        if hasattr(socket, "TCP_USER_TIMEOUT"):  # Linux; accepted connections inherit it
-            listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, int(1e3 * _STUCK_TIME))
-        listener.bind(address)
-    except OSError as error:
-        listener.close()
-        raise TrocarError(f"cannot listen on {host}, port {port}: {error.strerror}") from error
-    return listener
 
 
 def _host_values(host: str, ip: str, port: int, scheme: str) -> set[str]:

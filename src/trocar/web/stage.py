@@ -29,6 +29,7 @@ from trocar.simulation.kind import AnyScene, kind_of
 from trocar.simulation.live import LIVE_MODELS, LIVE_SIZE, live_model
 from trocar.simulation.organ import Organ, make_organ_scene
 from trocar.simulation.organ_surface import OrganSurface
+from trocar.simulation.phantom import Phantom
 from trocar.simulation.sheet_scene import SheetScene, make_sheet_scene
 from trocar.simulation.sheet_surface import sheet_planes_shown
 from trocar.simulation.surface import Surface
@@ -113,6 +114,8 @@ class Stage:
         """Return whether a task is done in this scene."""
         if task.sheet is not None or self.sheet is not None:
             return (self.sheet, self.instruments) == (task.sheet, task.instruments)
+        if task.organ is not None:
+            return (self.organ, self.instruments) == (task.organ.organ, task.instruments)
         return (
             self.tissue == preset(task.tissue)
             and self.instruments == task.instruments
@@ -313,10 +316,17 @@ def sheet_stage(name: str, ports: str, sheet: Sheet) -> Stage:
     )
 
 
+@lru_cache(maxsize=4)
+def _phantom_stage(phantom: Phantom, ports: str) -> Stage:
+    return organ_stage(phantom.organ, ports=ports)
+
+
 def stage_of(task: Task) -> Stage:
     """Return the stage a task is done on."""
     if task.sheet is not None:
         return sheet_stage(task.tissue, task.ports, task.sheet)
+    if task.organ is not None:
+        return _phantom_stage(task.organ, task.ports)
     return _stage_through(task.tissue, task.ports, task.nodules)
 
 

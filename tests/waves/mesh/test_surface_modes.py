@@ -59,7 +59,7 @@ def test_they_are_made_once(model, grid, tmp_path):
 def test_materials_that_damp_differently_are_refused(grid):
     cover, *others = COARSE.materials
     lossy = replace(COARSE, materials=(replace(cover, loss_factor=0.2), *others))
-    with pytest.raises(InputError, match="one loss for all"):
+    with pytest.raises(InputError, match=r"one loss for all.*give all layers the same loss_factor"):
         surface_modes(WaveMesh(lossy, modes=2), grid)
 
 
@@ -67,5 +67,14 @@ def test_materials_that_remember_are_refused(grid):
     remembers = replace(
         COARSE, materials=tuple(replace(one, prony=((0.5, 0.1),)) for one in COARSE.materials)
     )
-    with pytest.raises(InputError, match="Prony series"):
+    with pytest.raises(InputError, match=r"a Prony series of cover and.*take the \[layer.memory\] table out"):
         surface_modes(WaveMesh(remembers, modes=2), grid)
+
+
+def test_loss_beside_prestress_is_refused(grid):
+    taut = replace(
+        COARSE,
+        materials=tuple(replace(one, prestress_x=100.0, loss_factor=0.2) for one in COARSE.materials),
+    )
+    with pytest.raises(InputError, match=r"ms of retardation, prestress.*none beside prestress"):
+        surface_modes(WaveMesh(taut, modes=2), grid)

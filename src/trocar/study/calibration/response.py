@@ -57,11 +57,18 @@ def check_model(case: Case, model: str) -> None:
     """Refuse what cannot be calibrated.
 
     Raises:
-        InputError: the model is unknown or does not take this case, there are two tools, or a layer's law is not
-            linear.
+        InputError: the model is unknown or does not take this case, the case has a mesh, there are two tools, or a
+            layer's law is not linear.
     """
     if model not in MODEL_NAMES:
         raise InputError("--model", f"one of {', '.join(MODEL_NAMES)}", model)
+    if case.mesh is not None:
+        raise InputError(
+            "mesh",
+            "a [block]",
+            Words("a [mesh]"),
+            "calibrate on a block, as thick as the organ under the tool",
+        )
     if len(case.tools) != 1:
         raise InputError("tool", "one tool", len(case.tools), "leave one of them out of the case file")
     if case.tissue.large_deformation:

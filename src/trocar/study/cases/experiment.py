@@ -1,4 +1,4 @@
-"""One experiment: a block of tissue, how it is held, one or two tools, and when to look.
+"""One experiment: a block or a mesh of tissue, how it is held, one or two tools, and when to look.
 
 A force goes up at the tool's rate, holds, comes down at the same rate and stays away. Between corners it is
 linear in time, so a model whose step is exact for linear loads needs only the corners and the samples.
@@ -19,6 +19,9 @@ from trocar.study.cases import quantity as q
 from trocar.study.cases.tool import Contact, Tool
 from trocar.tissues import Tissue
 from trocar.tissues.key_quantity import MOST_LAYERS
+from trocar.waves.mesh.elements import Elements
+from trocar.waves.mesh.footprint import laid
+from trocar.waves.mesh.solid_mesh import SolidMesh
 
 SAME_TIME = 1e-13  # relative: sums of three times carry a few rounding errors of 1e-16 each
 SAME_PLACE = 1e-9  # relative to the side: rounding of unit conversion, far below any mesh or mode
@@ -55,6 +58,8 @@ class Case:
         support: how the block is held.
         tools: one or two.
         sampling: when to look.
+        mesh: of any shape, in the place of a block: size and support are its own, each of the layers is a material of
+            it, and tools press its first surface where they are seen from above. None: a block.
 
     Raises:
         InputError: the parts are impossible together; `where` is a key path without unit, such as
@@ -67,13 +72,22 @@ class Case:
     support: Support
     tools: tuple[Tool, ...]
     sampling: Sampling = Sampling()
+    mesh: SolidMesh | None = None
 
     def __post_init__(self) -> None:
-        for side in self.size:
-            q.SIDE.check("block.size", side)
+        if self.mesh is None:
+            for side in self.size:
+                q.SIDE.check("block.size", side)
+        elif self.size != self.mesh.size or self.support is not self.mesh.support:
+            raise InputError("block", "the mesh's own size and support", (self.size, self.support.value))
         self._check_layers()
         self._check_tools()
         self._check_sampling()
+
+    @property
+    def faces(self) -> tuple[str, ...]:
+        """Names of the faces that are looked at: the layers' upper ones, or a mesh's surfaces."""
+        return self.tissue.layer_names if self.mesh is None else tuple(self.mesh.surfaces)
 
     @property
     def duration(self) -> float:
@@ -157,6 +171,8 @@ class Case:
                 thickness_ratio,
                 "leave the thin layer out or join it to its neighbour",
             )
+        if self.mesh is not None:
+            return
         thick = max(range(len(layers)), key=lambda i: layers[i].thickness)
         slenderness = self.tissue.thickness / min(self.size)
         least, most = q.LEAST_SLENDERNESS * (1 - SAME_PLACE), q.MOST_SLENDERNESS * (1 + SAME_PLACE)
@@ -179,6 +195,8 @@ class Case:
                     tool.diameter / q.DIAMETER.factor,
                     "take a smaller block",
                 )
+            if self.mesh is not None:
+                continue
             for axis, centre, half, side in zip(
                 "xy", tool.position, tool.half_extent, self.size, strict=True
             ):
@@ -195,6 +213,8 @@ class Case:
                     "move the tool, or take a smaller or less tilted one",
                 )
 
+        if self.mesh is not None:
+            self._check_on_mesh(self.mesh)
         if len({tool.contact for tool in self.tools}) > 1:
             raise InputError(
                 "tool[1].contact",
@@ -213,6 +233,17 @@ class Case:
                     f"at least {1e3 * least:.6g} mm from the first tool: rigid tips do not overlap",
                     float(f"{1e3 * apart:.6g}"),
                 )
+
+    def _check_on_mesh(self, mesh: SolidMesh) -> None:
+        elements = Elements(mesh)
+        for i, tool in enumerate(self.tools):
+            if tool.contact is Contact.RIGID:
+                raise InputError(f"tool[{i}].contact", '"dead" on a mesh', tool.contact.value)
+            try:
+                laid(tool.press(tool.peak), elements, self.faces[0])
+            except InputError as error:
+                expected = f"a footprint wholly on the mesh: {error.expected}"
+                raise InputError(f"tool[{i}].position", expected, error.got, error.advice) from None
 
     def _check_sampling(self) -> None:
         if self.rigid and self.tissue.relaxation_times:

@@ -7,6 +7,8 @@ from trocar.units import DEGREE, KILOPASCAL, MILLIMETRE
 
 SIDE = KeyQuantity(name="size", key="size_mm", unit="mm", factor=MILLIMETRE, low=1, high=1000)
 
+SPACING = KeyQuantity(name="spacing", key="spacing_mm", unit="mm", factor=MILLIMETRE, low=0.01, high=1000)
+
 THICKNESS = KeyQuantity(
     name="thickness", key="thickness_mm", unit="mm", factor=MILLIMETRE, low=0.001, high=1000,
     advice="a layer is between a micrometre and a metre thick",

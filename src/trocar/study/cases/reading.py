@@ -17,6 +17,7 @@ from trocar.errors import InputError
 from trocar.model import Support
 from trocar.study.cases import quantity as q
 from trocar.study.cases.experiment import Case, Sampling, case_from_tissue
+from trocar.study.cases.mesh_table import ANY_THICKNESS, read_mesh_table
 from trocar.study.cases.tool import Contact, Tip, Tool
 from trocar.tissues import Layer, Tissue
 from trocar.tissues.key_quantity import MOST_LAYERS
@@ -49,21 +50,35 @@ def load_case(path: str | os.PathLike[str]) -> Case:
     """
     file = printable(os.fspath(path))
     root = Table(file, "", _parse(file, _read(file, path)))
-    root.only(("title", "block", "layer", "tool", "sampling"))
+    root.only(("title", "block", "mesh", "layer", "tool", "sampling"))
     title = root.text("title")
-    block = root.table("block")
-    block.only(_BLOCK_KEYS)
-    size = block.pair(q.SIDE)
-    support = Support(block.choice("support", tuple(kind.value for kind in Support)))
-    layers = _layers(root)
+    meshed = "mesh" in root.content
+    if meshed and "block" in root.content:
+        raise root.refuse("mesh", "a table [block] or a table [mesh]", Words("both"), "leave one of them out")
+    layers = _layers(root, slabs=not meshed)
     try:
         tissue = Tissue(layers=layers, name=title)
     except InputError as error:
         raise InputError(f"{file}: layer: prony", error.expected, error.got, error.advice) from None
     tools = tuple(_tool(table) for table in root.tables("tool", q.MOST_TOOLS))
     sampling = _sampling(root.table("sampling"))
+    mesh = None
+    if meshed:
+        table = root.table("mesh")
+        mesh, tissue = read_mesh_table(table, Path(path).parent, tissue, tools[0].position)
+        size, support = mesh.size, mesh.support
+    else:
+        size, support = _block(root.table("block", because="there is no [mesh]"))
     try:
-        return Case(title=title, tissue=tissue, size=size, support=support, tools=tools, sampling=sampling)
+        return Case(
+            title=title,
+            tissue=tissue,
+            size=size,
+            support=support,
+            tools=tools,
+            sampling=sampling,
+            mesh=mesh,
+        )
     except InputError as error:
         raise _in_file(file, "", error) from None
 
@@ -110,11 +125,17 @@ def _parse(file: str, content: bytes) -> dict[str, object]:
         raise InputError(file, "TOML", Words(printable(reason)), "see https://toml.io") from None
 
 
-def _layers(root: Table) -> tuple[Layer, ...]:
+def _block(table: Table) -> tuple[tuple[float, float], Support]:
+    table.only(_BLOCK_KEYS)
+    size = table.pair(q.SIDE)
+    return size, Support(table.choice("support", tuple(kind.value for kind in Support)))
+
+
+def _layers(root: Table, *, slabs: bool) -> tuple[Layer, ...]:
     layers: list[Layer] = []
     tables = root.tables("layer", MOST_LAYERS)
     for table in tables:
-        layer = _layer(table)
+        layer = _layer(table, slab=slabs)
         if layer.name in (other.name for other in layers):
             raise table.refuse("name", "every layer's name once", layer.name)
         layers.append(layer)
@@ -122,7 +143,10 @@ def _layers(root: Table) -> tuple[Layer, ...]:
     return tuple(layers)
 
 
-def _layer(table: Table) -> Layer:
+def _layer(table: Table, *, slab: bool) -> Layer:
+    if not slab and q.THICKNESS.key in table.content:
+        key = q.THICKNESS.key
+        raise table.refuse(key, "no such key beside [mesh]", table.content[key], "the mesh says where it is")
     table.only(_LAYER_KEYS)
     name = table.text("name")
     law = read_law(table)
@@ -130,7 +154,9 @@ def _layer(table: Table) -> Layer:
     for present, absent in ((loss, frequency), (frequency, loss)):
         if present in table.content and absent not in table.content:
             raise table.refuse(absent, f"a number beside {present}", NOTHING, "give both or neither")
-    numbers = {item.name: table.number(item) for item in q.LAYER}
+    numbers = {item.name: table.number(item) for item in q.LAYER if slab or item is not q.THICKNESS}
+    if not slab:
+        numbers[q.THICKNESS.name] = ANY_THICKNESS
     prestress_x, prestress_y = table.pair(q.PRESTRESS)
     return Layer(
         name=name,

@@ -12,7 +12,6 @@ from matplotlib.patches import Circle
 from trocar.contact.instrument import NAMES
 from trocar.model import FloatArray
 from trocar.simulation import TIP
-from trocar.simulation.live import LIVE_SIZE
 from trocar.training.figures.page import (
     BACKGROUND,
     EXPERT,
@@ -47,7 +46,7 @@ def paths(attempt: Attempt, progress: Progress, expert: tuple[Attempt, Progress]
     """
     with page_sheet(_HEIGHT) as figure:
         axes = figure.subplots()
-        width, depth = (side / MILLIMETRE for side in LIVE_SIZE)
+        width, depth = (side / MILLIMETRE for side in progress.task.size)
         if expert is not None:
             for hand in range(2):
                 for way, _ in _ways(expert[0], hand):

@@ -13,6 +13,7 @@ from trocar.training.tasks.find_nodule import find_nodule
 from trocar.training.tasks.lift import lift
 from trocar.training.tasks.oblique_reach import oblique_reach
 from trocar.training.tasks.palpate import palpate
+from trocar.training.tasks.palpate_organ import palpate_organ
 from trocar.training.tasks.task import Task
 from trocar.training.tasks.trace import trace
 
@@ -27,6 +28,7 @@ TASKS: Mapping[str, Callable[[int], Task]] = {
     "alternate": alternate,
     "find-nodule": find_nodule,
     "cut-along-the-line": cut_line,
+    "palpate-organ": palpate_organ,
 }
 
 

@@ -8,9 +8,10 @@ from itertools import groupby, pairwise
 from math import dist
 
 from trocar.contact.instrument import Instrument
-from trocar.contact.port_sets import instruments_through
+from trocar.contact.port_sets import instruments_over
 from trocar.errors import InputError
 from trocar.simulation.live import LIVE_SIZE
+from trocar.simulation.phantom import Phantom
 from trocar.tissues.nodule import Nodule
 from trocar.training.line import Line
 from trocar.training.score import Marking
@@ -36,6 +37,7 @@ class Task:
         pass_source: where the pass mark comes from.
         nodules: in its tissue.
         sheet: it is done on, in the place of a preset; `tissue` only names it then.
+        organ: likewise.
     """
 
     name: str
@@ -50,6 +52,7 @@ class Task:
     pass_source: str
     nodules: tuple[Nodule, ...] = ()
     sheet: Sheet | None = None
+    organ: Phantom | None = None
 
     def __post_init__(self) -> None:
         if not self.steps:
@@ -58,7 +61,12 @@ class Task:
     @property
     def instruments(self) -> tuple[Instrument, Instrument]:
         """Left and right, through the task's ports."""
-        return instruments_through(self.ports, LIVE_SIZE)
+        return instruments_over(self.ports, self.size, LIVE_SIZE)
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Sides of the rectangle over which it is done [m]."""
+        return LIVE_SIZE if self.organ is None else self.organ.size
 
     def as_dict(self) -> dict[str, object]:
         """Return it as JSON takes it; steps that ask for the same thing are one line of its list."""

@@ -8,6 +8,7 @@ of 0 after long and 1 at once. The sudden one is factored: it is what moves. The
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -151,13 +152,21 @@ class Assembled:
             )
         return np.asarray(field, dtype=np.float64)
 
-    def modes(self, count: int) -> tuple[FloatArray, FloatArray]:
+    def modes(
+        self, count: int, *, progress: Callable[[int, int], None] | None = None
+    ) -> tuple[FloatArray, FloatArray]:
         """Return squared angular frequencies [1/s^2], ascending, and modes of unit mass [kg^-1/2], as stiff as at once.
+
+        Args:
+            count: how many.
+            progress: told how many of them are found, and of how many.
 
         Returns:
             Shapes (count,) and (unknowns, count).
         """
-        squares, shapes = lowest_modes(self.factored.solve, self._ordered(self.mass), count)
+        squares, shapes = lowest_modes(
+            self.factored.solve, self._ordered(self.mass), count, progress=progress
+        )
         modes = np.zeros((self.elements.held.size, count))
         modes[self._order] = shapes
         return squares, modes

@@ -13,7 +13,7 @@ from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.waves.mesh.parts import parts
 from trocar.waves.mesh.solid_mesh import IntArray, shown
-from trocar.waves.mesh.stuffing import stuffed
+from trocar.waves.mesh.stuffing import check_spacing, stuffed
 
 _SAME = 1e-7  # of the extent: corners nearer than this are one
 _ACROSS = 24  # spacings in the longest side, where none is given
@@ -50,8 +50,7 @@ def filled(
     _check_closed(corners, triangles, name)
     low, high = corners.min(axis=0), corners.max(axis=0)
     spacing = float((high - low).max()) / _ACROSS if spacing is None else spacing
-    if not spacing > 0:
-        raise InputError("spacing", "a length above 0 [m]", spacing)
+    check_spacing(low, high, spacing)
     points, normals = _spread(corners[triangles], _SAMPLED * spacing)
     tree = cKDTree(points)
 

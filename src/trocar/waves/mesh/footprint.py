@@ -1,4 +1,4 @@
-"""Points of a footprint with shares of its force: a polar rule, which knows nothing of the elements below.
+"""Points of a footprint with shares of its force: a polar rule, and where it comes to lie on a mesh.
 
 On a surface that slopes the footprint is laid into its tangent plane: the whole press, footprint and force, is turned
 by the shortest turn that takes z to the normal (Rodrigues' formula). On a level surface nothing turns.
@@ -11,7 +11,12 @@ from math import cos, pi, sin
 
 import numpy as np
 
+from trocar.errors import InputError
 from trocar.model import FloatArray, Press, Profile
+from trocar.waves.mesh.elements import Elements
+from trocar.waves.mesh.solid_mesh import IntArray
+
+STEEPEST = 0.259  # z of the normal where a tool still comes from above: 75 degrees
 
 _RINGS, _SPOKES = 32, 128
 _GAUSSIAN_RIM = (
@@ -54,3 +59,38 @@ def footprint_points(press: Press) -> tuple[FloatArray, FloatArray]:
     places = np.stack([press.x + c * e - s * n, press.y + s * e + c * n], axis=1)
     share = np.repeat(ring * rho, _SPOKES)
     return places, share / share.sum()
+
+
+def laid(
+    press: Press, elements: Elements, surface: str, approach: Approach = Approach.NORMAL
+) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Return what a press does to a surface: nodes, shares and the force that is shared.
+
+    Args:
+        press: seen from above.
+        elements: of the mesh.
+        surface: its name.
+        approach: along what a tool without tilt comes.
+
+    Returns:
+        Nodes and the share of the force on each, both of shape (k, n), and the force [N], shape (3,).
+
+    Raises:
+        InputError: the footprint is not wholly on the surface, or the surface is too steep there.
+    """
+    force = np.asarray(press.force_vector)
+    points, share = footprint_points(press)
+    if approach is Approach.NORMAL:
+        normal = share @ elements.seen(surface, points)[1]
+        normal /= np.linalg.norm(normal)
+        if normal[2] < STEEPEST:
+            raise InputError(
+                "press: x, y",
+                "a place where the surface looks up, at most 75 degrees from it",
+                f"{np.degrees(np.arccos(normal[2])):.0f} degrees at {1e3 * press.x:.4g}, {1e3 * press.y:.4g} mm",
+                "turn the mesh so that this side is above",
+            )
+        turn, centre = turn_to(normal), np.array([press.x, press.y])
+        points, force = centre + (points - centre) @ turn[:2, :2].T, turn @ force
+    nodes, weights = elements.at(surface, points)
+    return nodes, weights * share, force

@@ -21,7 +21,11 @@ _GONE = 1e-12  # relative: the directions of a block that it does not really hav
 
 
 def lowest_modes(
-    solve: Callable[[FloatArray], FloatArray], mass: sp.csr_array, count: int
+    solve: Callable[[FloatArray], FloatArray],
+    mass: sp.csr_array,
+    count: int,
+    *,
+    progress: Callable[[int, int], None] | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Return squared angular frequencies [1/s^2], ascending, and modes of unit mass, shape (count,) and (n, count).
 
@@ -29,6 +33,7 @@ def lowest_modes(
         solve: K^-1 of vectors, shape (n, k).
         mass: shape (n, n).
         count: how many.
+        progress: told after every block how many of them have settled, and of how many.
 
     Raises:
         SolverError: they do not settle.
@@ -54,8 +59,10 @@ def lowest_modes(
         values, vectors = np.linalg.eigh(projected)
         values, vectors = values[::-1], vectors[:, ::-1]
         new, factor = _upright(new, mass)
-        left = np.linalg.norm(factor @ vectors[old:, :count], axis=0)
-        if len(values) >= count and (left <= _RESIDUAL * values[:count]).all():
+        settled = np.linalg.norm(factor @ vectors[old:, :count], axis=0) <= _RESIDUAL * values[:count]
+        if progress is not None:
+            progress(int(settled.sum()), count)
+        if len(values) >= count and settled.all():
             modes, begin = np.zeros((size, count)), 0
             for one in basis:
                 modes += one @ vectors[begin : begin + one.shape[1], :count]

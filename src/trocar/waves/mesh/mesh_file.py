@@ -50,12 +50,22 @@ class MeshFile:
     triangles: IntArray
     nodes: dict[str, IntArray]
 
+    @property
+    def used(self) -> np.ndarray:
+        """Which points its elements have, or its triangles where it has no elements, shape (n,)."""
+        if len(self.cells):
+            return self.mentioned
+        found = np.zeros(len(self.points), dtype=bool)
+        found[self.triangles.ravel()] = True
+        return found
+
 
 def read_file(path: Path) -> MeshFile:
     """Read a mesh file.
 
     Raises:
-        InputError: it cannot be read, is of an unknown kind, or has elements that are neither tetrahedra nor hexahedra.
+        InputError: it cannot be read, is of an unknown kind, or has elements that are neither tetrahedra nor hexahedra,
+            or neither such elements nor triangles.
     """
     found = _parsed(path)
     kinds = {block.type for block in found.cells}
@@ -71,6 +81,13 @@ def read_file(path: Path) -> MeshFile:
     if len(sizes) > 1:
         raise InputError(
             str(path), "tetrahedra or hexahedra", "both in one file", "mesh it with tetrahedra alone"
+        )
+    if not any(len(b.data) for b in found.cells if b.type in _SOLID or _FLAT.get(b.type) == 3):
+        raise InputError(
+            str(path),
+            "tetrahedra, hexahedra, or triangles of a closed surface",
+            "none of them",
+            "the file holds no triangles and no solid elements: write it again in the program that made it",
         )
     points = np.asarray(found.points, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
@@ -112,9 +129,12 @@ def read_file(path: Path) -> MeshFile:
     )
 
 
-def _parsed(path: Path) -> Any:
-    """Return what meshio makes of a file."""
-    meshio = import_module("meshio")  # half a second: only who reads a mesh waits for it
+def check_file(path: Path) -> None:
+    """Refuse a file that cannot be read, before it is.
+
+    Raises:
+        InputError: it is not there, is of an unknown kind, or too large.
+    """
     if path.suffix.lower() not in ENDINGS:
         raise InputError(
             str(path),
@@ -135,6 +155,12 @@ def _parsed(path: Path) -> Any:
             f"{size // 1_000_000} MB",
             "make larger elements",
         )
+
+
+def _parsed(path: Path) -> Any:
+    """Return what meshio makes of a file."""
+    check_file(path)
+    meshio = import_module("meshio")  # half a second: only who reads a mesh waits for it
     words = io.StringIO()
     try:
         with redirect_stdout(words), redirect_stderr(words), np.errstate(all="ignore"):
@@ -155,7 +181,10 @@ def _said(error: BaseException) -> str:
 
 
 def _corners(block: Any, size: int) -> IntArray:
-    return np.asarray(block.data, dtype=np.int64).reshape(len(block.data), -1)[:, :size]
+    corners = np.asarray(block.data, dtype=np.int64)
+    return (
+        corners.reshape(len(corners), -1)[:, :size] if len(corners) else np.zeros((0, size), dtype=np.int64)
+    )
 
 
 def _groups(found: Any) -> Iterator[tuple[str, int, IntArray]]:

@@ -14,9 +14,9 @@ from numba import njit
 
 from trocar.model import FloatArray
 from trocar.waves.kernel import turned
+from trocar.waves.mesh.footprint import STEEPEST
 from trocar.waves.mesh.mesh_tick import ROUND, MeshTick, MeshTickState
 from trocar.waves.mesh.solid_mesh import IntArray
-from trocar.waves.mesh.wave_mesh import STEEPEST
 
 BoolArray = npt.NDArray[np.bool_]
 

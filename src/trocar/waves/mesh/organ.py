@@ -23,6 +23,7 @@ from trocar.waves.mesh.faces import above, below, outer_faces
 from trocar.waves.mesh.solid_mesh import LONGEST, Held, SolidMesh, placed
 from trocar.waves.mesh.stuffing import stuffed
 
+EVEN_SPACING = 0.0125  # [m] along x, of elements that are as long everywhere
 _POWER = 2.4  # of the outline: 2 is an ellipse
 _UPPER, _LOWER = 2.0, 4.0  # powers of the height: a dome, and a flat side with a blunt rim
 _STRETCH = 1.8  # elements are as much lower than long: most happens through the thickness
@@ -94,7 +95,7 @@ class Liver:
         return x, y / float(self._narrowing(np.array(2 * x / self.length)))
 
     def mesh(
-        self, layer: Layer, *, spacing: float = 0.0125, around: tuple[float, float] | None = None
+        self, layer: Layer, *, spacing: float = EVEN_SPACING, around: tuple[float, float] | None = None
     ) -> SolidMesh:
         """Return its tetrahedra, held by the bed below, the falciform ligament above, and the coronary ligament behind.
 

@@ -22,9 +22,9 @@ from scipy.spatial import cKDTree
 from trocar.errors import InputError
 from trocar.model import FloatArray
 from trocar.waves.mesh.elements import Elements
+from trocar.waves.mesh.footprint import STEEPEST
 from trocar.waves.mesh.solid_mesh import IntArray
 from trocar.waves.mesh.surface_rule import surface_rule
-from trocar.waves.mesh.wave_mesh import STEEPEST
 
 LARGEST = 2**30  # [bytes] of a table from every site to every other
 _PER_EDGE = 0.8  # windows to an edge of the mesh, unless another is asked for

@@ -50,40 +50,42 @@ def read_mesh(
 ) -> SolidMesh:
     """Read a mesh; `SolidMesh.read` says how."""
     path = Path(path)
-    if unit not in UNITS:
-        raise InputError("unit", f"one of {', '.join(UNITS)}", unit)
-    if up not in _UP:
-        raise InputError("up", f"one of {', '.join(_UP)}", up)
+    check_reading(unit=unit, up=up)
     file = read_file(path)
     _check_count(len(file.points), path)
     points = UNITS[unit] * file.points
+    check_unit(file, unit, path)
     if len(file.cells):
-        _check_unit(file.points[file.mentioned], unit, path)
+        if spacing is not None:
+            raise InputError(
+                "spacing",
+                "none for a file of solid elements",
+                spacing,
+                "leave it out: it is for surfaces, which are filled",
+            )
         if not drop_unused and not file.mentioned.all():
             raise InputError(
                 str(path),
                 "every node in a solid element",
                 f"{int((~file.mentioned).sum())} in none, the first {int(np.argmin(file.mentioned))}",
-                "pass drop_unused=True to leave them out",
+                "take them out of the file, or have them left out",
+                give={"drop_unused": True},
             )
         cells = _upright(points, file.cells)
         region, layers = _materials(file, materials, path)
-    elif len(file.triangles):
-        _check_unit(file.points[np.unique(file.triangles)], unit, path)
+    else:
         if isinstance(materials, Mapping):
             raise InputError(
                 f"{path}: materials",
                 "one layer, for a surface has no regions",
                 list(materials),
-                "pass one Layer",
             )
         points, cells = filled(points, file.triangles, spacing, name=str(path))
         region, layers = np.zeros(len(cells), dtype=np.int64), (materials,)
-    else:
-        raise InputError(str(path), "tetrahedra, hexahedra, or triangles of a closed surface", "none of them")
     points = points @ np.array(_UP[up], dtype=np.float64).T
-    faces = [_faces(one, file, points, cells, path) for one in ([held] if isinstance(held, str) else held)]
-    seen = _faces(touched, file, points, cells, path)
+    groups = [held] if isinstance(held, str) else held
+    faces = [_faces("held", one, file, points, cells, path) for one in groups]
+    seen = _faces("touched", touched, file, points, cells, path)
     used, renumbered = np.unique(cells, return_inverse=True)
     place = np.full(len(points), -1)
     place[used] = np.arange(len(used))
@@ -99,6 +101,18 @@ def read_mesh(
     )
 
 
+def check_reading(*, unit: str, up: str) -> None:
+    """Refuse a unit or a direction that there is not.
+
+    Raises:
+        InputError: `unit` is none of `UNITS`, or `up` names no axis.
+    """
+    if unit not in UNITS:
+        raise InputError("unit", f"one of {', '.join(UNITS)}", unit)
+    if up not in _UP:
+        raise InputError("up", f"one of {', '.join(_UP)}", up)
+
+
 def _check_count(count: int, path: Path) -> None:
     if count > MOST_CORNERS:
         raise InputError(
@@ -109,18 +123,30 @@ def _check_count(count: int, path: Path) -> None:
         )
 
 
-def _check_unit(points: FloatArray, unit: str, path: Path) -> None:
-    extent = np.ptp(points, axis=0)
+def check_unit(file: MeshFile, unit: str, path: Path, *, shortest: float = SHORTEST) -> None:
+    """Refuse a file whose size says that its unit is another.
+
+    Args:
+        file: what is in it.
+        unit: of its lengths.
+        path: of it.
+        shortest: the least length of its longest side [m].
+
+    Raises:
+        InputError: it is shorter than that, or longer than any tissue.
+    """
+    extent = np.ptp(file.points[file.used], axis=0)
     longest = float(extent.max())
-    if SHORTEST <= UNITS[unit] * longest <= LONGEST:
+    if shortest <= UNITS[unit] * longest <= LONGEST:
         return
-    likely = [name for name, size in UNITS.items() if 10 * SHORTEST <= size * longest <= LONGEST]
-    advice = f"it looks like {' or '.join(likely)}: pass unit={likely[0]!r}" if likely else "scale the mesh"
+    least = max(shortest, 10 * SHORTEST)
+    likely = [name for name, size in UNITS.items() if least <= size * longest <= LONGEST]
     raise InputError(
         str(path),
-        f"a solid {1e3 * SHORTEST:g} to {1e3 * LONGEST:g} mm long",
+        f"a solid {1e3 * shortest:g} to {1e3 * LONGEST:g} mm long",
         " x ".join(f"{side:.4g}" for side in extent) + f" {unit}",
-        advice,
+        f"it looks like {' or '.join(likely)}" if likely else "scale the mesh",
+        give={"unit": likely[0]} if likely else None,
     )
 
 
@@ -147,13 +173,15 @@ def _materials(
             f"{path}: materials",
             f"a material for every element; the file's regions are {known}",
             f"{int((region < 0).sum())} elements without",
-            "name a layer for every region, or pass one Layer for all",
+            "name a layer for every region, or one for all",
         )
     return region, tuple(materials.values())
 
 
-def _faces(name: str, file: MeshFile, points: FloatArray, cells: IntArray, path: Path) -> IntArray:
-    """Return the faces that a name means: a group of the file, or a word."""
+def _faces(
+    argument: str, name: str, file: MeshFile, points: FloatArray, cells: IntArray, path: Path
+) -> IntArray:
+    """Return the faces that a name, given as an argument, means: a group of the file, or a word."""
     if name in file.faces and len(file.cells):
         outside = outer_faces(cells)[0]
         known = {tuple(sorted(face)) for face in outside.tolist()}
@@ -166,13 +194,13 @@ def _faces(name: str, file: MeshFile, points: FloatArray, cells: IntArray, path:
         found = _WORDS[name](points, cells)
     else:
         known_names = ", ".join([*file.faces, *file.nodes, *_WORDS])
-        raise InputError(f"{path}: faces", f"one of {known_names}", name)
+        raise InputError(argument, f"one of {known_names}, as in {path}", name)
     if len(found) == 0:
         raise InputError(
-            f"{path}: {name}",
-            "faces on the outside of the mesh",
-            "none",
-            "without a support the tissue floats away: name a group of faces, or choose which way is up",
+            argument,
+            f"a group with faces on the outside of the mesh in {path}",
+            name,
+            "name another, or choose which axis looks up",
         )
     return found
 

@@ -161,6 +161,11 @@ class SolidMesh:
         x, y, _ = np.ptp(self.corners, axis=0)
         return float(x), float(y)
 
+    @property
+    def thickness(self) -> float:
+        """From the lowest to the highest point [m]."""
+        return float(np.ptp(self.corners[:, 2]))
+
     def _check_size(self) -> None:
         extent = np.ptp(self.corners, axis=0)
         if not (extent >= SHORTEST / 100).all() or not SHORTEST <= extent.max() <= LONGEST:

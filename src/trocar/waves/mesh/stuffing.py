@@ -37,16 +37,7 @@ def stuffed(level: Level, low: FloatArray, high: FloatArray, spacing: float) -> 
     Raises:
         InputError: it would take too many nodes, or nothing is inside.
     """
-    if not spacing > 0:
-        raise InputError("spacing", "a length above 0 [m]", spacing)
-    expected = 2 * float(np.prod(np.asarray(high) - low)) / spacing**3
-    if expected > 4 * MOST_CORNERS:
-        raise InputError(
-            "spacing",
-            f"one that fills the shape with at most {MOST_CORNERS} nodes",
-            spacing,
-            "take a larger one",
-        )
+    check_spacing(low, high, spacing)
     places, cells, short = _lattice(np.asarray(low), np.asarray(high), spacing)
     values = level(places)
     near = (values[cells] <= 0).any(axis=1)
@@ -60,6 +51,20 @@ def stuffed(level: Level, low: FloatArray, high: FloatArray, spacing: float) -> 
     turned = volumes_of(corners, cells) < 0
     cells[turned] = cells[turned][:, [1, 0, 2, 3]]
     return corners, cells
+
+
+def check_spacing(low: FloatArray, high: FloatArray, spacing: float) -> None:
+    """Refuse a spacing [m] that is none, or takes too many nodes for a shape between two corners [m]."""
+    if not spacing > 0:
+        raise InputError("spacing", "a length above 0 [m]", spacing)
+    expected = 2 * float(np.prod(np.asarray(high) - low)) / spacing**3
+    if expected > 4 * MOST_CORNERS:
+        raise InputError(
+            "spacing",
+            f"one that fills the shape with at most {MOST_CORNERS} nodes",
+            spacing,
+            "take a larger one",
+        )
 
 
 def _lattice(low: FloatArray, high: FloatArray, spacing: float) -> tuple[FloatArray, IntArray, np.ndarray]:

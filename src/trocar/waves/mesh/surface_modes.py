@@ -21,6 +21,7 @@ import numpy as np
 
 from trocar.errors import InputError
 from trocar.model import FloatArray
+from trocar.tissues.layer import Layer, relaxation_times
 from trocar.waves.mesh.press_grid import PressGrid
 from trocar.waves.mesh.solid_mesh import IntArray
 from trocar.waves.mesh.wave_mesh import WaveMesh
@@ -65,22 +66,40 @@ def surface_modes(model: WaveMesh, grid: PressGrid, *, progress: Progress | None
         InputError: materials damp differently, or remember.
         SolverError: the mesh is not held.
     """
-    materials = model.mesh.materials
-    times = sorted({material.retardation_time for material in materials})
-    taut = any(material.prestress_x or material.prestress_y for material in materials)
-    remembers = len(model.matrices.times) > 0
-    if len(times) > 1 or (taut and times[0] > 0) or remembers:
-        raise InputError(
-            "surface modes: materials",
-            "one loss for all of them, none with prestress, and no memory: their modes then move each for itself",
-            "a Prony series" if remembers else times,
-            "WaveMesh itself steps such a tissue",
-        )
+    time = _retardation_time(model.mesh.materials)
     found = model.kept(
         lambda: _made(model, grid, progress), "surface modes", grid.surface, grid.window, grid.spacing
     )
     squares, shapes, rest = found
-    return SurfaceModes(squares, shapes, rest, times[0])
+    return SurfaceModes(squares, shapes, rest, time)
+
+
+def _retardation_time(materials: tuple[Layer, ...]) -> float:
+    """Return tau of the damping C = tau K [s], where every mode moves for itself.
+
+    Raises:
+        InputError: modes would move each other.
+    """
+    remembering = [material.name for material in materials if relaxation_times((material,), "mesh")]
+    if remembering:
+        raise InputError(
+            "materials of an organ that tools move on",
+            "none that remembers",
+            f"a Prony series of {' and '.join(remembering)}",
+            "take the [layer.memory] table out of the tissue file (WaveMesh itself steps such a tissue)",
+        )
+    times = sorted({material.retardation_time for material in materials})
+    taut = any(material.prestress_x or material.prestress_y for material in materials)
+    if len(times) > 1 or (taut and times[0] > 0):
+        raise InputError(
+            "materials of an organ that tools move on",
+            "one loss for all of them, and no prestress beside it",
+            f"{', '.join(f'{1e3 * time:.3g}' for time in times)} ms of retardation"
+            + (", prestress" if taut else ""),
+            "give all layers the same loss_factor and loss_frequency, and none beside prestress "
+            "(WaveMesh itself steps such a tissue)",
+        )
+    return times[0]
 
 
 def _made(

@@ -35,7 +35,7 @@ from trocar.waves.memory import Memory, between
 from trocar.waves.mesh.assembled import Assembled
 from trocar.waves.mesh.basis_cache import BasisCache, fingerprint
 from trocar.waves.mesh.elements import Elements
-from trocar.waves.mesh.footprint import Approach, footprint_points, turn_to
+from trocar.waves.mesh.footprint import Approach, laid
 from trocar.waves.mesh.reduced import Reduced
 from trocar.waves.mesh.solid_mesh import SolidMesh
 from trocar.waves.oscillators import Oscillators
@@ -45,7 +45,6 @@ MOST_MODES = 500
 _REMEMBERED = 16  # presses whose vectors are kept, and sets of them whose basis is
 _MOST_PRESSES = 8  # whose vectors a state holds; those that no longer press are left first
 _GENERATIONS = 2  # of vectors: 1 + 2 + 4 of a press
-STEEPEST = 0.259  # z of the normal where a tool still comes from above: 75 degrees
 _NEW = 1e-5  # relative: a vector that is nearer to those before it says nothing new
 
 
@@ -69,6 +68,7 @@ class WaveMesh:
         approach: along what a tool without tilt comes to a surface that slopes; on a level one there is no difference.
         cache: where modes, and vectors of presses, are looked for and kept; None computes them.
         massless: leaves inertia and Kelvin-Voigt damping out of `step`: what is left is creep.
+        progress: told how many modes are found, and of how many, while they are.
 
     Raises:
         InputError: fewer modes than one, or more than the mesh has; no such approach; too many relaxation times.
@@ -83,6 +83,7 @@ class WaveMesh:
         approach: Approach | str = Approach.NORMAL,
         cache: BasisCache | None = None,
         massless: bool = False,
+        progress: Callable[[int, int], None] | None = None,
     ) -> None:
         self.mesh = mesh
         self.elements = Elements(mesh)
@@ -96,6 +97,7 @@ class WaveMesh:
         self.approach = Approach(approach)
         self.massless = massless
         self._cache = cache
+        self._progress = progress
         self._vectors = lru_cache(maxsize=_REMEMBERED)(self._vectors_of)
         self._basis = lru_cache(maxsize=_REMEMBERED)(self._basis_of)
 
@@ -127,7 +129,7 @@ class WaveMesh:
     @cached_property
     def lowest(self) -> tuple[FloatArray, FloatArray]:
         """Squared angular frequencies [1/s^2], ascending, and modes [kg^-1/2], shape (r,) and (unknowns, r)."""
-        squares, modes = self.kept(lambda: self.matrices.modes(self.modes), "modes")
+        squares, modes = self.kept(lambda: self.matrices.modes(self.modes, progress=self._progress), "modes")
         return squares, modes
 
     def kept(self, make: Callable[[], tuple[FloatArray, ...]], *names: object) -> tuple[FloatArray, ...]:
@@ -203,6 +205,20 @@ class WaveMesh:
         field = self.field(state)
         return np.asarray(np.einsum("ckn,kn->nc", field[:, nodes], weights))
 
+    def along_normal(self, state: MeshState, points: FloatArray, surface: str) -> FloatArray:
+        """Return how far a surface moves out at points, along its normals at rest [m], shape (n,).
+
+        Args:
+            state: of this model.
+            points: only x and y are used [m], shape (n, 3).
+            surface: its name.
+
+        Raises:
+            InputError: there is no such surface, or a point is beside it.
+        """
+        moved = self.displacement(state, points, surface)
+        return np.asarray(np.einsum("nc,nc->n", moved, self.elements.seen(surface, points)[1]))
+
     def field(self, state: MeshState) -> FloatArray:
         """Return the displacement of every node [m], shape (3, nodes)."""
         basis = self._basis(state.presses)
@@ -214,24 +230,10 @@ class WaveMesh:
         """Return the forces of a press on every node [N], flattened from (3, nodes).
 
         Raises:
-            InputError: the footprint is not wholly on the surface.
+            InputError: the footprint is not wholly on the surface, or the surface is too steep there.
         """
-        surface, force = self.layer_names[0], np.asarray(press.force_vector)
-        points, share = footprint_points(press)
-        if self.approach is Approach.NORMAL:
-            normal = share @ self.elements.seen(surface, points)[1]
-            normal /= np.linalg.norm(normal)
-            if normal[2] < STEEPEST:
-                raise InputError(
-                    "press: x, y",
-                    "a place where the surface looks up, at most 75 degrees from it",
-                    f"{np.degrees(np.arccos(normal[2])):.0f} degrees at {1e3 * press.x:.4g}, {1e3 * press.y:.4g} mm",
-                    "turn the mesh so that this side is above",
-                )
-            turn, centre = turn_to(normal), np.array([press.x, press.y])
-            points, force = centre + (points - centre) @ turn[:2, :2].T, turn @ force
-        nodes, weights = self.elements.at(surface, points)
-        spread = np.bincount(nodes.ravel(), (weights * share).ravel(), minlength=self.elements.nodes.shape[1])
+        nodes, shares, force = laid(press, self.elements, self.layer_names[0], self.approach)
+        spread = np.bincount(nodes.ravel(), shares.ravel(), minlength=self.elements.nodes.shape[1])
         return np.asarray(np.outer(force, spread)).ravel()
 
     def _vectors_of(self, press: Press) -> FloatArray:
