@@ -172,6 +172,7 @@ def train(
     from trocar.cli.doing import doing
     from trocar.cli.organ import organ_stage
     from trocar.records.store import Records
+    from trocar.web.ahead import preparing
     from trocar.web.lessons import Lessons
     from trocar.web.serve import serve
     from trocar.web.stage import set_stage
@@ -208,7 +209,8 @@ def train(
 
     lessons = Lessons(trainer, records)
     try:
-        serve(trainer, lessons, on_ready=ready, host=listen, port=port, cert=cert, key=key)
+        with preparing():
+            serve(trainer, lessons, on_ready=ready, host=listen, port=port, cert=cert, key=key)
     finally:
         lessons.close()
         trainer.close()

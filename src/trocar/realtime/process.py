@@ -71,8 +71,16 @@ def run(orders: Orders, block: Any, trouble: Connection) -> None:
     os._exit(EXIT_OF_LOOP + call())
 
 
-def _ready(orders: Orders, shared: Shared) -> Any:
-    """Compile or load everything; return the loop, ready to be called."""
+def compiled_loop(orders: Orders, shared: Shared) -> tuple[Any, tuple[Any, ...]]:
+    """Compile everything, or load it from numba's caches.
+
+    Args:
+        orders: what the loop is for.
+        shared: memory it works on.
+
+    Returns:
+        The loop and its arguments.
+    """
     scene, state = orders.scene, orders.state
     work = make_work(shared, orders.field_shape)
     kinds = tuple(typeof(value) for value in (scene, state, work.poses, work.records, work.amplitudes))
@@ -84,8 +92,14 @@ def _ready(orders: Orders, shared: Shared) -> Any:
     )
     settings = Settings(period=orders.period, parent=orders.parent, allowed=0)
     arguments = (*functions, scene, state, shared, work, settings, orders.following, orders.limits)
-    shared.trail.rows[:] = 0.0  # every page of it is there before the first tick
     loop = with_own_cache(serve, orders.physics)
     compiled(loop, tuple(typeof(argument) for argument in arguments))
-    settings = settings._replace(allowed=claim(scheduled=orders.scheduled))
+    return loop, arguments
+
+
+def _ready(orders: Orders, shared: Shared) -> Any:
+    """Return the loop, ready to be called."""
+    shared.trail.rows[:] = 0.0  # every page of it is there before the first tick
+    loop, arguments = compiled_loop(orders, shared)
+    settings = arguments[7]._replace(allowed=claim(scheduled=orders.scheduled))
     return lambda: loop(*arguments[:7], settings, *arguments[8:])

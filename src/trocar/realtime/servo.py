@@ -10,14 +10,11 @@ from __future__ import annotations
 import os
 import signal
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import IntFlag
-from multiprocessing import get_context, resource_tracker
+from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
-from os import getpid
 from threading import Lock, current_thread, main_thread
 from typing import Any, Self
 
@@ -27,16 +24,16 @@ import numpy.typing as npt
 from trocar.errors import InputError, ServoError
 from trocar.model import FloatArray
 from trocar.realtime import loop, shared
+from trocar.realtime.child import start_deaf
 from trocar.realtime.clock import now
 from trocar.realtime.guard import GuardLimits, beat_factor
 from trocar.realtime.physics import Physics, live
-from trocar.realtime.process import EXIT_COULD_NOT_START, EXIT_OF_LOOP, Orders, run
+from trocar.realtime.process import EXIT_COULD_NOT_START, EXIT_OF_LOOP, Orders, compiled_loop, run
 from trocar.realtime.tracking import Following
 from trocar.simulation import DRAG, FORCE, HANDLE, HANDLE_FORCE, JAW, PRESENT, ROLL
 
 START_WITHIN = 300.0  # [s] for compiling everything on a slow and busy machine, the first time
 _STOP_WITHIN = 0.5  # [s] for the loop to see the flag, then for SIGTERM to work
-_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 _WAIT = 5e-3  # [s] between looks
 
 
@@ -136,11 +133,9 @@ class Servo:
             "following": Following(smoothing=float(smoothing), speed=float(speed)),
             "limits": _checked(GuardLimits() if limits is None else limits),
             "scheduled": scheduled,
-            "parent": getpid(),
+            "parent": os.getpid(),
         }
-        self._lock = (
-            Lock()
-        )  # of this side's writers and readers among themselves; the servo knows nothing of it
+        self._lock = Lock()  # of this side's threads among themselves; the servo knows nothing of it
         self._process: SpawnProcess | None = None
         self._resets = 0
         self._prepare()
@@ -161,6 +156,10 @@ class Servo:
     def __exit__(self, *_: object) -> None:
         self.close()
 
+    def compile(self) -> None:
+        """Compile here what the servo's own process will need, into numba's caches: it then starts in seconds."""
+        compiled_loop(Orders(**self._orders, tied=False), self._shared)
+
     def start(self, *, within: float = START_WITHIN) -> None:
         """Start the process and wait for its first tick.
 
@@ -178,13 +177,7 @@ class Servo:
         process = context.Process(
             target=run, args=(orders, self._block, sender), name="trocar servo", daemon=True
         )
-        resource_tracker.ensure_running()  # it would take SIGINT's block away below, were it started there
-        blocked = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
-        try:  # the process begins deaf to Ctrl-C, and later ignores it
-            with _one_thread():
-                process.start()
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
+        start_deaf(process)
         sender.close()
         self._process = process
         try:
@@ -353,21 +346,6 @@ class Servo:
         if process.is_alive():
             process.kill()
             process.join()
-
-
-@contextmanager
-def _one_thread() -> Iterator[None]:
-    """Let a process that is started now compute with one thread: those of a library wait for each other."""
-    before = {name: os.environ.get(name) for name in _THREADS}
-    os.environ.update(dict.fromkeys(_THREADS, "1"))
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
 
 
 def _reason(code: int | None) -> str:

@@ -9,7 +9,8 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 from trocar.errors import InputError, TrocarError
@@ -30,6 +31,9 @@ LOOK_EVERY = 0.04  # [s]
 _TRIED_AGAIN = 2.0  # [s] between tries to put an attempt on record
 _SERVO_BACK = 30.0  # [s] for a servo that died and is being started again
 _TOLD_EVERY = 0.1  # [s] of what changes steadily
+_TOLD_AFTER = 3.0  # [s] of setting a task's scene up
+_SETTING_UP = "The task's tissue is being set up; the first time its code is compiled, a minute or two."
+_SET_UP = "The task's tissue is ready."
 _SHOWN_AFTERWARDS = 5.0  # [s] that the end of an attempt is told to pages that come
 _LOG = logging.getLogger(__name__)
 
@@ -116,12 +120,26 @@ class Lessons:
 
     def _set_up(self, task: Task) -> None:
         if not self._trainer.stage.suits(task):
-            self._trainer.enter(stage_of(task))
+            with self._told_if_long():
+                self._trainer.enter(stage_of(task))
         end = time.monotonic() + _SERVO_BACK
         while not self._trainer.runs:
             if time.monotonic() > end:
                 raise TrocarError("the trainer: its servo does not run; stop the trainer and start it anew")
             time.sleep(LOOK_EVERY)
+
+    @contextmanager
+    def _told_if_long(self) -> Iterator[None]:
+        """Say what takes so long, if it does, and when it is over."""
+        began = time.monotonic()
+        telling = threading.Timer(_TOLD_AFTER, self._trainer.say, ("info", _SETTING_UP))
+        telling.start()
+        try:
+            yield
+        finally:
+            telling.cancel()
+        if time.monotonic() - began > _TOLD_AFTER:
+            self._trainer.say("info", _SET_UP)
 
     def _follow(self, number: int, live: LiveAttempt, stop: threading.Event, closed: threading.Event) -> None:
         """Be an attempt's thread."""

@@ -53,7 +53,7 @@ class Trainer:
         self._device = WebDevice(instruments=stage.instruments) if device is None else device
         self._lessons = lessons
         self._stage, self._hello = stage, self._greeting(stage)
-        self._servo = _servo_of(stage)
+        self._servo = servo_of(stage)
         self._notices: deque[Notice] = deque(maxlen=16)
         self._guiding: Guiding | None = None
         self._said: dict[str, float] = {}
@@ -125,7 +125,7 @@ class Trainer:
             TrocarError: its servo could not be started; all stays as it was.
         """
         with self._changing:
-            servo = _servo_of(stage)
+            servo = servo_of(stage)
             servo.start()
             greeting = self._greeting(stage)
             with self._showing:
@@ -238,7 +238,7 @@ class Trainer:
             left, right = self._servo.latest().hand_forces.tolist()
             self._device.feel((tuple(left), tuple(right)))
             if self._device.finished(now) and not over:
-                self._say("info", f"The {self._device.name} hands have finished. Reset (R) begins anew.")
+                self.say("info", f"The {self._device.name} hands have finished. Reset (R) begins anew.")
             over = self._device.finished(now)
 
     def _revive(self) -> None:
@@ -246,12 +246,12 @@ class Trainer:
             return
         reason = self._servo.exit_reason
         if self._restarts >= _RESTARTS:
-            self._say(
+            self.say(
                 "stopped", f"The servo {reason} again. Forces are off: stop the trainer and start it anew."
             )
             return
         self._restarts += 1
-        self._say("warning", f"The servo {reason}. Forces are off; it is being started again.")
+        self.say("warning", f"The servo {reason}. Forces are off; it is being started again.")
         self._restarting = threading.Thread(target=self._restart, name="restart", daemon=True)
         self._restarting.start()
 
@@ -260,25 +260,27 @@ class Trainer:
             with self._changing:
                 self._servo.restart()
         except TrocarError as error:
-            self._say("warning", f"{error}.")
+            self.say("warning", f"{error}.")
         else:
-            self._say("info", "The servo runs again; the tissue is at rest.")
+            self.say("info", "The servo runs again; the tissue is at rest.")
             self._began = time.monotonic()
 
     def _tell_of(self, flags: ServoFlag) -> None:
         for flag, (level, text) in _SENTENCES.items():
             if flag in flags and flag not in self._seen:
-                self._say(level, text)
+                self.say(level, text)
         self._seen = flags
 
-    def _say(self, level: Any, text: str) -> None:
+    def say(self, level: Any, text: str) -> None:
+        """Tell the user a sentence, unless it has just been told."""
         now = time.monotonic()
         if now - self._said.get(text, -_QUIET) >= _QUIET:
             self._said[text] = now
             self._notices.append(Notice(level=level, text=text))
 
 
-def _servo_of(stage: Stage) -> Servo:
+def servo_of(stage: Stage) -> Servo:
+    """Return what moves a stage's scene, not started."""
     return Servo(
         stage.scene, kind_of(stage.scene).at_rest(stage.scene), physics=stage.physics, smoothing=SMOOTHING
     )

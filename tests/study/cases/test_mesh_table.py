@@ -99,7 +99,7 @@ def test_layers_are_the_materials_of_a_files_regions(tmp_path):
         ('file = "ball.stl"\nunit = "inch"', {}, "mesh.unit", "one of m, cm, mm, um, got 'inch'"),
         ('file = "ball.stl"\nunit = "m"', {}, "mesh.file", "it looks like"),
         ('file = "ball.stl"\nup = "z"', {}, "mesh.up", "one of +z, -z"),
-        ('file = "ball.stl"\nheld = "bed"', {}, "mesh.file", "one of above, below, got 'bed'"),
+        ('file = "ball.stl"\nheld = "bed"', {}, "mesh.held", "one of above, below, as in"),
         ('file = "ball.stl"\ntouched = 3', {}, "mesh.touched", "printable text"),
         ('file = "ball.stl"\nspacing_mm = 0', {}, "mesh.spacing_mm", "a number from 0.01"),
         ('file = "ball.stl"\nspacing_mm = 0.02', {}, "mesh.spacing_mm", "take a larger one"),
