@@ -148,10 +148,20 @@ class Obedient(ABC):
             self.jaw(hand, is_open=False)
 
     def ground(self, place):
-        """Return how high the tissue at rest is drawn at a place [m]."""
-        hello = self.watcher.hello
-        if hello["shape"] is None:
+        """Return how high the lowest point of a round tip is when it touches the tissue at rest at a place [m]."""
+        if self.watcher.hello["shape"] is None:
             return 0.0
+        step = 1e-3
+        slope = [
+            (self.drawn(np.add(place, way)) - self.drawn(np.subtract(place, way))) / (2 * step)
+            for way in ((step, 0.0), (0.0, step))
+        ]
+        radius = max(one["shaft_radius_m"] for one in self.watcher.hello["instruments"])
+        return self.drawn(place) + radius * (np.sqrt(1 + np.dot(slope, slope)) - 1)
+
+    def drawn(self, place):
+        """Return how high an organ at rest is drawn at a place [m]."""
+        hello = self.watcher.hello
         nx, ny = hello["grid"]
         i, j = np.clip(
             np.asarray(place) / hello["tissue"]["size_m"] * (nx - 1, ny - 1), 0, (nx - 1.001, ny - 1.001)

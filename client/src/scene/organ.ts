@@ -10,7 +10,6 @@ import { Surface } from "./surface";
 import { wetMaterial } from "./wet";
 
 const TINT = new Color(0.92, 0.5, 0.42); // of a liver under its capsule, against skin
-const UNDER = 2e-4; // that the other faces lie below the surface where they meet it [m]
 
 export class Organ {
   readonly group = new Group();
@@ -18,7 +17,7 @@ export class Organ {
 
   constructor(hello: Hello, shape: OrganShape, maps: Maps, shade: ContactShade) {
     const [nx, ny] = hello.grid;
-    this.surface = new Surface(hello.tissue.size_m, nx, ny, shape.rest_m);
+    this.surface = new Surface(hello.tissue.size_m, nx, ny, shape);
     const wet = wetMaterial(maps, { tint: TINT, film: 1, relief: 0.6, side: FrontSide, shade });
     wet.vertexColors = true; // what is pressed in is darker
     this.add(new Mesh(this.surface.geometry, wet));
@@ -41,14 +40,11 @@ function sides(shape: OrganShape): BufferGeometry {
   const corners = new Float32Array(shape.corners_m.flat());
   geometry.setAttribute("position", new BufferAttribute(corners, 3));
   geometry.setIndex(shape.faces.flat());
-  geometry.computeVertexNormals();
-  const normals = geometry.getAttribute("normal");
+  geometry.setAttribute("normal", new BufferAttribute(new Float32Array(shape.normals.flat()), 3));
   const uv = new Float32Array((2 * corners.length) / 3);
-  for (let at = 0; at < normals.count; at++) {
+  for (let at = 0; at < corners.length / 3; at++) {
     const [x, y, z] = [0, 1, 2].map((axis) => corners[3 * at + axis] as number) as [number, number, number];
     uv.set([(x + 0.3 * z) / TILE, (y + z) / TILE], 2 * at);
-    const inward: readonly number[] = [normals.getX(at), normals.getY(at), normals.getZ(at)].map((part) => -UNDER * part);
-    corners.set([x + (inward[0] as number), y + (inward[1] as number), z + (inward[2] as number)], 3 * at);
   }
   geometry.setAttribute("uv", new BufferAttribute(uv, 2));
   return geometry;

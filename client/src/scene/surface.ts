@@ -3,6 +3,7 @@
 import { BufferAttribute, BufferGeometry } from "three";
 
 import type { Frame } from "../wire/frame";
+import type { OrganShape } from "../wire/messages";
 import { TILE } from "./skin-texture";
 import { type Corner, tear } from "./slit";
 
@@ -11,6 +12,9 @@ const SHUT_OFF = 3.2; // light lost for a hollow as deep as that is wide, agains
 
 export class Surface {
   readonly geometry = new BufferGeometry();
+  private readonly rest: readonly (number | null)[]; // heights of an organ's nodes, null where there is no surface
+  private readonly rim: ReadonlySet<number>; // nodes drawn to an organ's outline
+  private readonly places: Float64Array; // of all nodes at rest, x and y [m]
   private position: Float32Array;
   private normal: Float32Array;
   private shade: Float32Array; // how much of its light a node gets, three equal colours
@@ -19,36 +23,41 @@ export class Surface {
 
   /**
    * @param size of the tissue's rectangle [m]. @param nx nodes along x, from edge to edge. @param ny nodes along y.
-   * @param rest heights of the nodes at rest [m], null where there is no surface; an empty list for a level one.
+   * @param shape of an organ's surface at rest; null for a level one, with nodes at even distances.
    */
   constructor(
     private readonly size: readonly [number, number],
     private readonly nx: number,
     private readonly ny: number,
-    private readonly rest: readonly (number | null)[] = [],
+    shape: Pick<OrganShape, "rest_m" | "rim" | "rim_m"> | null = null,
   ) {
+    this.rest = shape?.rest_m ?? [];
+    this.rim = new Set(shape?.rim);
+    this.places = evenly(size, nx, ny);
+    shape?.rim.forEach((node, k) => this.places.set(shape.rim_m[k] as readonly [number, number], 2 * node));
     const count = nx * ny;
     this.position = new Float32Array(3 * count);
     this.normal = new Float32Array(3 * count);
     this.shade = new Float32Array(3 * count).fill(1);
     const uv = new Float32Array(2 * count);
-    for (let j = 0; j < ny; j++) {
-      for (let i = 0; i < nx; i++) {
-        const at = j * nx + i;
-        const x = (size[0] * i) / (nx - 1);
-        const y = (size[1] * j) / (ny - 1);
-        this.position.set([x, y, this.height(at)], 3 * at);
-        this.normal.set([0, 0, 1], 3 * at);
-        uv.set([x / TILE, y / TILE], 2 * at); // the texture belongs to the tissue and moves with it
-      }
+    for (let at = 0; at < count; at++) {
+      const [x, y] = this.place(at);
+      this.position.set([x, y, this.height(at)], 3 * at);
+      this.normal.set([0, 0, 1], 3 * at);
+      uv.set([x / TILE, y / TILE], 2 * at); // the texture belongs to the tissue and moves with it
     }
     this.offer(uv);
     this.geometry.setIndex(triangles(nx, ny, (at) => this.isDrawn(at)));
-    if (rest.length > 0) this.turnNormals();
+    if (shape) this.turnNormals();
   }
 
   private isDrawn(at: number): boolean {
     return this.rest.length === 0 || this.rest[at] !== null;
+  }
+
+  /** Where a node is at rest, seen from above [m]. */
+  private place(at: number): readonly [number, number] {
+    return [this.places[2 * at] as number, this.places[2 * at + 1] as number];
   }
 
   private height(at: number): number {
@@ -58,15 +67,13 @@ export class Surface {
   /** Move every node to where the frame has it. */
   update(frame: Frame): void {
     if (frame.cut && !same(frame.cut, this.cut)) this.tear(frame.cut);
-    const { nx, ny, size, position } = this;
-    const count = nx * ny;
-    for (let j = 0; j < ny; j++) {
-      for (let i = 0; i < nx; i++) {
-        const at = j * nx + i;
-        position[3 * at] = (size[0] * i) / (nx - 1) + (frame.inPlane?.[at] ?? 0);
-        position[3 * at + 1] = (size[1] * j) / (ny - 1) + (frame.inPlane?.[count + at] ?? 0);
-        position[3 * at + 2] = this.height(at) + (frame.heights[at] as number);
-      }
+    const { position } = this;
+    const count = this.nx * this.ny;
+    for (let at = 0; at < count; at++) {
+      const [x, y] = this.place(at);
+      position[3 * at] = x + (frame.inPlane?.[at] ?? 0);
+      position[3 * at + 1] = y + (frame.inPlane?.[count + at] ?? 0);
+      position[3 * at + 2] = this.height(at) + (frame.heights[at] as number);
     }
     this.turnNormals();
     this.shadeHollows(frame.heights);
@@ -104,9 +111,8 @@ export class Surface {
 
   /** Move a corner as its node went. */
   private followOwner({ owner, x, y }: Corner, at: number): void {
-    const { nx, ny, size, position, normal, shade } = this;
-    const restX = (size[0] * (owner % nx)) / (nx - 1);
-    const restY = (size[1] * Math.floor(owner / nx)) / (ny - 1);
+    const { position, normal, shade } = this;
+    const [restX, restY] = this.place(owner);
     position[3 * at] = (position[3 * owner] as number) + x - restX;
     position[3 * at + 1] = (position[3 * owner + 1] as number) + y - restY;
     position[3 * at + 2] = position[3 * owner + 2] as number;
@@ -152,7 +158,34 @@ export class Surface {
         normal[3 * at + 2] = z / length;
       }
     }
+    for (const at of this.rim) this.turnAsNeighbours(at);
   }
+
+  /** Give a node of the rim, which may lie next to another, the mean normal of the nodes within it. */
+  private turnAsNeighbours(at: number): void {
+    const { nx, ny, normal } = this;
+    const sum: [number, number, number] = [0, 0, 0];
+    for (const dj of [-1, 0, 1]) {
+      for (const di of [-1, 0, 1]) {
+        const [i, j] = [(at % nx) + di, Math.floor(at / nx) + dj];
+        const other = j * nx + i;
+        if (i < 0 || j < 0 || i >= nx || j >= ny || this.rim.has(other) || !this.isDrawn(other)) continue;
+        for (const axis of [0, 1, 2] as const) sum[axis] += normal[3 * other + axis] as number;
+      }
+    }
+    const length = Math.hypot(...sum) || 1;
+    for (const axis of [0, 1, 2] as const) normal[3 * at + axis] = sum[axis] / length;
+  }
+}
+
+function evenly(size: readonly [number, number], nx: number, ny: number): Float64Array {
+  const places = new Float64Array(2 * nx * ny);
+  for (let j = 0; j < ny; j++) {
+    for (let i = 0; i < nx; i++) {
+      places.set([(size[0] * i) / (nx - 1), (size[1] * j) / (ny - 1)], 2 * (j * nx + i));
+    }
+  }
+  return places;
 }
 
 function same(one: Uint8Array, other: Uint8Array | null): boolean {

@@ -93,8 +93,14 @@ export interface Notice {
 export interface OrganShape {
   /** heights of the grid's nodes at rest, x fastest; null where nothing is drawn */
   readonly rest_m: readonly (number | null)[];
+  /** nodes that are drawn from their places beside the organ to its outline */
+  readonly rim: readonly number[];
+  /** x and y of those */
+  readonly rim_m: readonly (readonly [number, number])[];
   /** of the other faces */
   readonly corners_m: readonly (readonly [number, number, number])[];
+  /** of the organ at those corners, of length one */
+  readonly normals: readonly (readonly [number, number, number])[];
   /** triangles of those corners */
   readonly faces: readonly (readonly [number, number, number])[];
 }

@@ -86,8 +86,16 @@ function isOrgan(shape: OrganShape, nodes: number): boolean {
     Array.isArray(shape.rest_m) &&
     shape.rest_m.length === nodes &&
     shape.rest_m.every((height) => height === null || Number.isFinite(height)) &&
+    Array.isArray(shape.rim) &&
+    Array.isArray(shape.rim_m) &&
+    shape.rim.length === shape.rim_m.length &&
+    shape.rim.every((node) => Number.isInteger(node) && node >= 0 && node < nodes) &&
+    shape.rim_m.every((place) => isNumbers(place, 2)) &&
     Array.isArray(shape.corners_m) &&
     shape.corners_m.every((corner) => isNumbers(corner, 3)) &&
+    Array.isArray(shape.normals) &&
+    shape.normals.length === shape.corners_m.length &&
+    shape.normals.every((normal) => isNumbers(normal, 3)) &&
     Array.isArray(shape.faces) &&
     shape.faces.every((face) => isNumbers(face, 3) && Math.max(...face) < shape.corners_m.length)
   );

@@ -53,12 +53,13 @@ describe("the surface", () => {
 
   it("begins at an organ's heights and leaves out what is beside it", () => {
     const rest = Array.from({ length: 35 }, (_, at) => (at % 7 === 0 ? null : -0.001 * (at % 7) ** 2));
-    const surface = new Surface(SIZE, 7, 5, rest);
+    const surface = new Surface(SIZE, 7, 5, { rest_m: rest, rim: [15], rim_m: [[0.004, 0.021]] });
     const position = surface.geometry.getAttribute("position");
     expect(position.getZ(9)).toBeCloseTo(-0.004, 8);
     expect(surface.geometry.index?.count).toBe(5 * 4 * 6); // a column of cells has a corner beside the organ
     surface.update(bent(7, 5, () => -0.002));
     expect(position.getZ(9)).toBeCloseTo(-0.006, 8);
+    expect([position.getX(15), position.getY(15)].map((place) => place.toFixed(6))).toEqual(["0.004000", "0.021000"]);
     expect(surface.geometry.getAttribute("normal").getX(8)).toBeGreaterThan(0.2); // one-sided where there is no neighbour
     expect(surface.geometry.getAttribute("color").getX(9)).toBeCloseTo(1, 5); // a dome has no hollows of its own
   });

@@ -48,7 +48,12 @@ class OrganShape(Message):
     rest_m: tuple[float | None, ...] = Field(
         description="heights of the grid's nodes at rest, x fastest; null where nothing is drawn"
     )
+    rim: tuple[int, ...] = Field(
+        description="nodes that are drawn from their places beside the organ to its outline"
+    )
+    rim_m: tuple[tuple[float, float], ...] = Field(description="x and y of those")
     corners_m: tuple[Vector, ...] = Field(description="of the other faces")
+    normals: tuple[Vector, ...] = Field(description="of the organ at those corners, of length one")
     faces: tuple[tuple[int, int, int], ...] = Field(description="triangles of those corners")
 
 

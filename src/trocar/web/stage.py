@@ -103,10 +103,13 @@ class Stage:
         if self.organ is None:
             return None
         assert isinstance(self._surface, OrganSurface)
-        corners, faces = self._surface.sides
+        corners, normals, faces = self._surface.sides
         return OrganShape(
             rest_m=tuple(round(z, 6) if isfinite(z) else None for z in self._surface.rest.ravel().tolist()),
+            rim=tuple(self._surface.rim.tolist()),
+            rim_m=tuple((x, y) for x, y in np.round(self._surface.rim_places, 6).tolist()),
             corners_m=tuple(_vector(corner) for corner in np.round(corners, 6)),
+            normals=tuple(_vector(normal) for normal in np.round(normals, 3)),
             faces=tuple((a, b, c) for a, b, c in faces.tolist()),
         )
 

@@ -30,21 +30,36 @@ def looking(
         along: the direction, of length 1.
         within: [rad].
     """
+    faces, normals = outward_faces(corners, cells)
+    size = np.linalg.norm(normals, axis=1)
+    return np.asarray(faces[normals @ np.asarray(along) > cos(within) * size])
+
+
+def outward_faces(corners: FloatArray, cells: IntArray) -> tuple[IntArray, FloatArray]:
+    """Return the outer faces, their corners counter-clockwise as seen from outside, and normals twice their area.
+
+    Args:
+        corners: [m], shape (n, 3).
+        cells: shape (m, 4) or (m, 8).
+
+    Returns:
+        Faces, shape (k, 3) or (k, 4), and outward normals [m^2], shape (k, 3).
+    """
     faces, owner = outer_faces(cells)
     places = corners[faces]
-    normal = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
+    normals = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
     if faces.shape[1] == 4:
-        normal = np.cross(places[:, 2] - places[:, 0], places[:, 3] - places[:, 1])
+        normals = np.cross(places[:, 2] - places[:, 0], places[:, 3] - places[:, 1])
     outward = places.mean(axis=1) - corners[cells[owner]].mean(axis=1)
-    normal *= np.sign(np.einsum("kc,kc->k", normal, outward))[:, None]
-    size = np.linalg.norm(normal, axis=1)
-    return np.asarray(faces[normal @ np.asarray(along) > cos(within) * size])
+    turned = np.einsum("kc,kc->k", normals, outward) < 0
+    faces, normals = faces.copy(), normals.copy()
+    faces[turned] = faces[turned, ::-1]
+    normals[turned] *= -1
+    return faces, normals
 
 
-ABOVE, BELOW = (
-    pi / 2 - 0.05,
-    pi / 4,
-)  # [rad] from straight up: seen from above; from straight down: lies on a bed
+ABOVE = pi / 2 - 0.05  # [rad] from straight up: seen from above
+BELOW = pi / 4  # [rad] from straight down: lies on a bed
 
 
 def above(corners: FloatArray, cells: IntArray) -> IntArray:
