@@ -48,13 +48,46 @@ def shown(organ):
 
 def test_nodes_lie_on_the_organ_and_those_beside_it_are_left_out(organ, shown):
     surface = shown[0]
-    x, y = (np.linspace(0, side, n) for side, n in zip(organ.size, GRID, strict=True))
-    nodes = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    heights = organ.model.elements.heights("surface", nodes).reshape(GRID[::-1])
-    assert np.array_equal(np.isnan(surface.rest), np.isnan(heights))
-    assert np.nanmax(np.abs(surface.rest - heights)) < 1e-12
+    heights = heights_on(organ)
+    drawn, on = np.isfinite(surface.rest), np.isfinite(heights)
+    assert drawn[on].all()
+    assert set(np.flatnonzero((drawn & ~on).ravel())) == set(surface.rim)
+    assert np.abs(surface.rest - heights)[on].max() < 1e-12
     assert np.isnan(surface.rest[0, 0])
     assert np.nanmax(surface.rest) <= 0.0
+
+
+def test_nodes_next_beside_the_organ_are_drawn_to_its_outline(organ, shown):
+    surface = shown[0]
+    on = np.isfinite(heights_on(organ))
+    near = sum(np.roll(on, (j, i), (0, 1)) for j in (-1, 0, 1) for i in (-1, 0, 1)) > 0
+    assert set(surface.rim) == set(np.flatnonzero((near & ~on).ravel()))
+    assert np.isfinite(organ.model.elements.heights("surface", surface.rim_places)).all()
+    outward = nodes_of(organ).reshape(-1, 2)[surface.rim] - surface.rim_places
+    beyond = surface.rim_places + 1e-5 * outward / np.maximum(
+        np.linalg.norm(outward, axis=1, keepdims=True), 1e-9
+    )
+    assert np.isnan(organ.model.elements.heights("surface", beyond)).mean() > 0.95  # it may wind in and out
+
+
+def test_the_other_faces_look_outwards_and_close_the_organ(organ, shown):
+    corners, normals, faces = shown[0].sides
+    a, b, c = (corners[faces[:, k]] for k in range(3))
+    across = np.cross(b - a, c - a)
+    middle = (a + b + c) / 3
+    assert (np.einsum("kc,kc->k", across, normals[faces].mean(axis=1)) > 0).mean() > 0.95  # sharp rims apart
+    below = middle[:, 2] < np.quantile(corners[:, 2], 0.2)
+    assert (across[below, 2] < 0).mean() > 0.9
+    assert np.linalg.norm(normals, axis=1) == pytest.approx(np.ones(len(corners)))
+
+
+def nodes_of(organ):
+    x, y = (np.linspace(0, side, n) for side, n in zip(organ.size, GRID, strict=True))
+    return np.stack(np.meshgrid(x, y), axis=-1)
+
+
+def heights_on(organ):
+    return organ.model.elements.heights("surface", nodes_of(organ).reshape(-1, 2)).reshape(GRID[::-1])
 
 
 def test_at_rest_nothing_is_moved(shown):

@@ -257,6 +257,19 @@ def test_a_task_with_ports_of_its_own_changes_the_stage_and_the_page_is_greeted_
     assert stands(visitor, number)["reason"] == "nobody held an instrument"
 
 
+def test_what_takes_long_to_be_set_up_is_said_and_when_it_is_over(school, monkeypatch):
+    visitor, trainer, _ = school
+    monkeypatch.setattr("trocar.web.lessons._TOLD_AFTER", 0.0)
+    trainer.notices()
+    name = "lift" if trainer.stage.suits(catalogue.task("oblique-reach")) else "oblique-reach"
+    number = begin(visitor, task=name)[1]["id"]
+    told = [notice.text for notice in trainer.notices()]
+    assert told[0].startswith("The task's tissue is being set up; the first time its code is compiled")
+    assert told[1:] == ["The task's tissue is ready."]
+    visitor.ask(f"/api/attempts/{number}/end", {})
+    until(lambda: stands(visitor, number)["status"] != "running", PATIENCE)
+
+
 def test_on_another_tissue_no_frame_comes_before_its_greeting(school):
     """The sheet has one layer, the pad two, skin three; a page shown other layers than it was told of gives up."""
     visitor, _, _ = school

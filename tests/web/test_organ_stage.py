@@ -11,7 +11,7 @@ from trocar.waves.mesh.organ import Liver
 from trocar.waves.mesh.wave_mesh import WaveMesh
 from trocar.web.messages import Hello
 from trocar.web.source import Status
-from trocar.web.stage import organ_stage, set_stage
+from trocar.web.stage import organ_stage, set_stage, stage_of
 from trocar.web.wire import encode
 
 
@@ -32,6 +32,9 @@ def test_the_greeting_tells_an_organs_shape(stage):
     assert -hello.tissue.thickness <= min(heights)
     assert max(max(face) for face in shape.faces) == len(shape.corners_m) - 1
     assert Hello.model_validate_json(hello.model_dump_json()) == hello
+    assert len(shape.rim) == len(shape.rim_m) > 50
+    assert all(shape.rest_m[node] is not None for node in shape.rim)
+    assert np.linalg.norm(shape.normals, axis=1) == pytest.approx(np.ones(len(shape.corners_m)), abs=2e-3)
     # The camera looks at the surface, not at the block's height.
     assert hello.camera.target_m[2] < -0.005
     assert set_stage("skin").hello(by_page=True).shape is None
@@ -55,3 +58,14 @@ def test_both_tips_begin_over_the_organ_free_of_it(stage):
 
 def test_no_task_is_taken_for_one_on_this_organ(stage):
     assert not stage.suits(task("palpate", 1))
+
+
+def test_the_task_on_an_organ_has_its_stage_at_every_level():
+    phantom = stage_of(task("palpate-organ"))
+    assert stage_of(task("palpate-organ", 2)) is phantom
+    assert phantom.suits(task("palpate-organ", 3))
+    assert not phantom.suits(task("palpate"))
+    assert not set_stage("silicone-pad").suits(task("palpate-organ"))
+    hello = phantom.hello(by_page=True)
+    assert hello.tissue.size_m == pytest.approx(task("palpate-organ").size)
+    assert hello.linear_force_n > task("palpate-organ").force_limit
