@@ -112,7 +112,7 @@ def test_the_dent_is_as_deep_as_the_tip_stands_and_goes_along_the_normal(organ, 
 
 
 def test_every_outer_face_is_drawn_by_the_grid_or_among_the_sides(organ, shown):
-    corners, faces = shown[0].sides
+    corners, _, faces = shown[0].sides
     assert faces.max() == len(corners) - 1
     low = organ.model.mesh.corners[:, 2].min()
     assert corners[:, 2].min() == pytest.approx(low)

@@ -202,7 +202,7 @@ def test_a_fifth_page_is_told_so_and_comes_in_when_another_leaves(guest):
 )
 def test_a_slow_reader_is_given_up_and_its_place_is_free(source, monkeypatch, send, stuck):
     """It acknowledges what it has not read, so that frames pile up until the kernel takes no more."""
-    monkeypatch.setattr("trocar.web.serve._STUCK_TIME", stuck)
+    monkeypatch.setattr("trocar.web.address._STUCK_TIME", stuck)
     with served(source, limits=StreamLimits(clients=1, send=send, frame_rate=1000.0)) as made:
         visitor = Visitor(made)
         plain = visitor.upgraded(receive_buffer=4096)

@@ -6,6 +6,7 @@ import pytest
 from trocar.errors import InputError
 from trocar.simulation import FORCE, RECORD, TIP, TOUCH, TOUCH_HOLDING, TOUCH_PRESENT, TOUCH_TOUCHING
 from trocar.training.score import Marking
+from trocar.training.session import ground_of
 from trocar.training.tasks.catalogue import LEVELS, TASKS, task
 from trocar.training.tasks.find import Find
 from trocar.training.tasks.moment import Moment
@@ -170,8 +171,9 @@ def test_every_task_is_possible(name, level):
     for step in found.steps:
         assert step.words.endswith(".")
         for mark in step.marks:
-            assert all(0.005 < each < 0.055 for each in mark.place)
-            found.instruments[mark.hand].handle_for((*mark.place, 0.0))  # in reach
+            assert all(0.005 < each < side - 0.005 for each, side in zip(mark.place, found.size, strict=True))
+            height = ground_of(found)(*mark.place)
+            found.instruments[mark.hand].handle_for((*mark.place, height))  # in reach
 
 
 @pytest.mark.parametrize(
