@@ -12,6 +12,7 @@ JSON alone on stdout and all else on stderr.
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -50,6 +51,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Args:
         arguments: what stands after the program's name; None takes them from the process.
     """
+    # Linear algebra is many small steps here, and threads wait for each other longer than they work: with two of them a
+    # liver's surface takes eight times as long. OpenBLAS reads this when numpy is imported, which commands do.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     command = typer.main.get_command(application())
     return run(command, PROGRAM, sys.argv[1:] if arguments is None else arguments)
 
