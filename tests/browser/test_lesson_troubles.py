@@ -91,7 +91,8 @@ def test_another_page_looks_on_keeps_its_choice_and_ends_nothing_by_one_click(op
     bob.until(lambda: bob.button("Begin").count() == 1, "his page offers again what he chose")
     assert re.match(r"Take hold and lift, level 1\s+Bob\. ", panel(bob))
     assert not bob.page.locator("#card").is_visible()
-    assert "Ada's attempt is over." in bob.page.inner_text("#notice")
+    # On a busy machine a word of the servo's may stand before it for a moment.
+    bob.until(lambda: "Ada's attempt is over." in bob.page.inner_text("#notice"), "he is told")
     assert ada.button("End the attempt").count() == 0
     number = bob.begin()
     row = bob.page.request.get(f"{bob.page.url}api/attempts/{number}").json()
