@@ -19,7 +19,7 @@ from trocar.simulation.scene import Scene
 from trocar.simulation.step import DRAG, FORCE, PLACE
 from trocar.simulation.surface import LEAST, REACH
 from trocar.waves.in_plane import InPlane
-from trocar.waves.mesh.faces import outward_faces
+from trocar.waves.mesh.faces import among, outward_faces
 from trocar.waves.mesh.mesh_tick import MeshTick, sunk_sites
 from trocar.waves.mesh.press_grid import cubic_table
 from trocar.waves.near_field import SMOOTH, half_space, near_field
@@ -95,8 +95,7 @@ class OrganSurface:
             np.clip(np.rint(mesh.corners[triangles, axis] / side * (n - 1)).astype(int), 0, n - 1)
             for axis, (side, n) in enumerate(zip(self._organ.size, self._grid, strict=True))
         )
-        looks_up = {tuple(face) for face in np.sort(mesh.surfaces[self._organ.grid.surface], axis=1).tolist()}
-        touched = np.array([tuple(face) in looks_up for face in np.sort(faces, axis=1).tolist()])
+        touched = among(faces, mesh.surfaces[self._organ.grid.surface])
         touched = touched if faces.shape[1] == 3 else np.tile(touched, 2)
         drawn = touched & np.isfinite(self.rest[row, column]).all(axis=1)
         used, numbers = np.unique(triangles[~drawn], return_inverse=True)

@@ -58,6 +58,12 @@ def outward_faces(corners: FloatArray, cells: IntArray) -> tuple[IntArray, Float
     return faces, normals
 
 
+def among(faces: IntArray, others: IntArray) -> np.ndarray:
+    """Return which faces are among others, in whatever order their corners are; (k, 3 or 4) to (k,)."""
+    known = {tuple(face) for face in np.sort(others, axis=1).tolist()}
+    return np.array([tuple(face) in known for face in np.sort(faces, axis=1).tolist()])
+
+
 ABOVE = pi / 2 - 0.05  # [rad] from straight up: seen from above
 BELOW = pi / 4  # [rad] from straight down: lies on a bed
 

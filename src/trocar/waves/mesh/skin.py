@@ -8,7 +8,7 @@ import numpy as np
 
 from trocar.tissues.layer import Layer
 from trocar.tissues.tissue import Tissue
-from trocar.waves.mesh.faces import outer_faces
+from trocar.waves.mesh.faces import among, outer_faces
 from trocar.waves.mesh.solid_mesh import SolidMesh
 
 
@@ -20,8 +20,7 @@ def skin(mesh: SolidMesh, surface: str) -> Layer:
         surface: its name.
     """
     faces, elements = outer_faces(mesh.cells)
-    pressed = {tuple(face) for face in np.sort(mesh.surfaces[surface], axis=1).tolist()}
-    own = [tuple(face) in pressed for face in np.sort(faces, axis=1).tolist()]
+    own = among(faces, mesh.surfaces[surface])
     return mesh.materials[int(np.bincount(mesh.region[elements[own]]).argmax())]
 
 
